@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "model/body.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string_view>
+
+namespace sphstab {
+namespace {
+
+enum class Boundary { periodic, free };
+
+template <int Dim>
+int flat_index(const LatticeIndex<Dim>& n, const LatticeIndex<Dim>& counts) {
+  int index = 0;
+  for (int axis = Dim - 1; axis >= 0; --axis) index = index * counts[axis] + n[axis];
+  return index;
+}
+
+template <int Dim>
+Body<Dim> block_of_lattice(const Problem<Dim>& problem, const LatticeIndex<Dim>& counts, Boundary boundary) {
+  const auto neighbours = lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule);
+  const int size = counts.prod();
+
+  Body<Dim> body;
+  body.volume.assign(size, problem.lattice.cell_volume());
+  for (int a = 0; a < size; ++a) {
+    LatticeIndex<Dim> n;
+    for (int axis = 0, rest = a; axis < Dim; rest /= counts[axis], ++axis) n[axis] = rest % counts[axis];
+    body.site.push_back(n);
+    body.position.push_back(problem.lattice.site(n));
+  }
+  body.pairs.first.push_back(0);
+  for (int a = 0; a < size; ++a) {
+    for (const auto& offset : neighbours) {
+      LatticeIndex<Dim> n = body.site[a] + offset.index;
+      bool inside = true;
+      for (int axis = 0; axis < Dim; ++axis) {
+        if (boundary == Boundary::periodic) n[axis] = ((n[axis] % counts[axis]) + counts[axis]) % counts[axis];
+        inside = inside && n[axis] >= 0 && n[axis] < counts[axis];
+      }
+      if (!inside) continue;
+      body.pairs.neighbour.push_back(flat_index<Dim>(n, counts));
+      body.pairs.separation.push_back(-offset.position);
+    }
+    body.pairs.first.push_back(static_cast<int>(body.pairs.neighbour.size()));
+  }
+  return body;
+}
+
+template <int Dim>
+void require_counts(std::string_view key, const LatticeIndex<Dim>& counts, int smallest) {
+  if (counts.minCoeff() < smallest)
+    throw InvalidInput(fmt::format("{}: {} has a count below {}", key,
+                                   fmt::join(counts.data(), counts.data() + Dim, ","), smallest));
+}
+
+}  // namespace
+
+template <int Dim>
+Body<Dim> periodic_patch(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
+  require_counts<Dim>("patch", cells, 1);
+  return block_of_lattice(problem, cells, Boundary::periodic);
+}
+
+template <int Dim>
+Body<Dim> free_plate(const Problem<Dim>& problem, const LatticeIndex<Dim>& particles) {
+  require_counts<Dim>("plate", particles, 2);
+  if (problem.lattice.kind() != LatticeKind::square)
+    throw InvalidInput(fmt::format("plate: a free plate needs the lattice square, not {}", name_of(problem.lattice.kind())));
+  return block_of_lattice(problem, particles, Boundary::free);
+}
+
+template struct NeighbourPairs<2>;
+template Body<2> periodic_patch(const Problem<2>&, const LatticeIndex<2>&);
+template Body<2> free_plate(const Problem<2>&, const LatticeIndex<2>&);
+
+}  // namespace sphstab

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "model/names.hpp"
+#include "model/tensor.hpp"
+
+namespace sphstab {
+
+enum class LatticeKind { square, hexagonal, staggered };
+
+template <>
+struct Names<LatticeKind> {
+  static constexpr std::array<Named<LatticeKind>, 3> table{
+      {{LatticeKind::square, "square"}, {LatticeKind::hexagonal, "hexagonal"}, {LatticeKind::staggered, "staggered"}}};
+};
+
+/// Which lattice sites within the support interact.
+enum class NeighbourRule {
+  support,  ///< every site strictly inside the support
+  nearest   ///< of those only the shell at the smallest distance (Zhang's four on the square lattice)
+};
+
+template <>
+struct Names<NeighbourRule> {
+  static constexpr std::array<Named<NeighbourRule>, 2> table{
+      {{NeighbourRule::support, "support"}, {NeighbourRule::nearest, "nearest"}}};
+};
+
+/// A Bravais lattice: sites x = Σ n_i a_i.
+template <int Dim>
+class Lattice {
+ public:
+  /// The primitive vectors of `kind` times `spacing` (a length): square (1,0),(0,1); hexagonal (1,0),(1/2,√3/2);
+  /// staggered (1,0),(1/2,1), the "face-centred cells" of Gray et al. Throws InvalidInput if spacing is not positive or
+  /// the kind does not exist in `Dim` dimensions.
+  Lattice(LatticeKind kind, double spacing);
+
+  LatticeKind kind() const { return kind_; }
+  double spacing() const { return spacing_; }
+  /// Columns a_i, lengths.
+  const Tensor<Dim>& primitive_vectors() const { return primitive_; }
+  /// Columns b_i with a_i · b_j = 2π δ_ij, radians per length.
+  const Tensor<Dim>& reciprocal_vectors() const { return reciprocal_; }
+  /// Volume of a cell, the volume V of one particle (area in 2-D, length in 1-D).
+  double cell_volume() const { return cell_volume_; }
+  Vector<Dim> site(const LatticeIndex<Dim>& n) const { return primitive_ * n.template cast<double>(); }
+
+ private:
+  LatticeKind kind_;
+  double spacing_;
+  Tensor<Dim> primitive_;
+  Tensor<Dim> reciprocal_;
+  double cell_volume_;
+};
+
+/// One neighbour of the particle at the origin.
+template <int Dim>
+struct LatticeNeighbour {
+  LatticeIndex<Dim> index;  ///< n of the neighbour's site
+  Vector<Dim> position;     ///< Σ n_i a_i
+  double distance;
+};
+
+/// The supports of two particles end here: r < support · (1 − tie_margin), so that sites on the support do not count.
+inline constexpr double tie_margin = 1e-12;
+
+/// The neighbours of a lattice site, itself excluded, ordered by distance, then by index. Both n and −n are present.
+/// Throws InvalidInput naming `smoothing_length` if there is none.
+template <int Dim>
+std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattice, double support, NeighbourRule rule);
+
+extern template class Lattice<2>;
+extern template std::vector<LatticeNeighbour<2>> lattice_neighbours(const Lattice<2>&, double, NeighbourRule);
+
+}  // namespace sphstab
