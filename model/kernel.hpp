@@ -53,7 +53,8 @@ std::span<const TruncatedPower> truncated_powers(KernelFamily family, int dimens
 ///   cubic     ¼(2−q)₊³ − (1−q)₊³                         quartic  (5/2−q)₊⁴ − 5(3/2−q)₊⁴ + 10(1/2−q)₊⁴
 ///   quintic   (3−q)₊⁵ − 6(2−q)₊⁵ + 15(1−q)₊⁵             gaussian exp(−q²), q < cutoff, not renormalised
 ///   Wendland  C2, C4, C6 with support 2h: (1−q/2)₊ⁿ p(q)  sinc-5   [sin(πq/2) / (πq/2)]⁵, q < 2 (Cabezón et al.)
-/// All are zero from the support on. Accuracy of value, slope and curvature: 1e-13 of W(0), W(0)/h and W(0)/h².
+/// All are zero from the support on. Accuracy of value, slope and curvature: 1e-12 of W(0), W(0)/h and W(0)/h²
+/// (Wendland C6 near the origin; ten times better elsewhere).
 /// Templates on the scalar so that duals and multiprecision numbers pass through. Tested in tests/model/test_kernel.cpp.
 template <int Dim>
 class Kernel {
