@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstddef>
-#include <string>
+#include <span>
 #include <string_view>
 
 #include "model/errors.hpp"
@@ -21,6 +21,17 @@ struct Named {
 template <class Enum>
 struct Names;
 
+/// The error for a word that is not among those allowed: names what it stands for, and suggests the nearest one.
+InvalidInput unknown_word(std::string_view what, std::string_view word, std::span<const std::string_view> allowed);
+
+/// All words of an enumeration, in the order of its table.
+template <class Enum>
+inline constexpr auto all_names = [] {
+  std::array<std::string_view, Names<Enum>::table.size()> words{};
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = Names<Enum>::table[i].name;
+  return words;
+}();
+
 /// The word users write for `value`.
 template <class Enum>
 constexpr std::string_view name_of(Enum value) {
@@ -32,20 +43,9 @@ constexpr std::string_view name_of(Enum value) {
 /// The enumerator of a word. Throws InvalidInput naming `key`, the word given and the words allowed.
 template <class Enum>
 Enum from_name(std::string_view key, std::string_view word) {
-  std::string allowed;
-  for (const auto& entry : Names<Enum>::table) {
+  for (const auto& entry : Names<Enum>::table)
     if (entry.name == word) return entry.value;
-    allowed += (allowed.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  throw InvalidInput(std::string(key) + ": '" + std::string(word) + "' is not one of " + allowed);
-}
-
-/// All words of an enumeration, in the order of its table.
-template <class Enum>
-constexpr auto all_names() {
-  std::array<std::string_view, Names<Enum>::table.size()> words{};
-  for (std::size_t i = 0; i < words.size(); ++i) words[i] = Names<Enum>::table[i].name;
-  return words;
+  throw unknown_word(key, word, all_names<Enum>);
 }
 
 }  // namespace sphstab

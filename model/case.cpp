@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "model/case.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace sphstab {
+namespace {
+
+constexpr double default_h_over_spacing = 1.3;
+
+template <class Enum>
+Enum enumerator(const Case& input, std::string_view key) {
+  return from_name<Enum>(key, input.required_word(key));
+}
+
+InvalidInput missing(const Key& key) {
+  return InvalidInput(fmt::format("{}: missing ({})", key.name, key.help));
+}
+
+void refuse_both(const Case& input, std::string_view one, std::string_view other) {
+  if (input.has(one) && input.has(other)) throw InvalidInput(fmt::format("{}: cannot be given with {}", one, other));
+}
+
+void require_length(std::string_view key, std::size_t given, std::size_t needed) {
+  if (given != needed)
+    throw InvalidInput(fmt::format("{}: has {} components, but {} are needed", key, given, needed));
+}
+
+Material make_material(const Case& input) {
+  for (const auto one : {"young_modulus", "poisson_ratio"})
+    for (const auto other : {"bulk_modulus", "shear_modulus"}) refuse_both(input, one, other);
+  const double density = input.required_number("density");
+  if (input.has("bulk_modulus") || input.has("shear_modulus"))
+    return Material::from_bulk_modulus(density, input.required_number("bulk_modulus"),
+                                       input.required_number("shear_modulus"));
+  return Material::from_young_modulus(density, input.required_number("young_modulus"),
+                                      input.required_number("poisson_ratio"));
+}
+
+Scheme make_scheme(const Case& input) {
+  Scheme scheme{.formulation = enumerator<Formulation>(input, "scheme"),
+                .momentum_density = enumerator<MomentumDensity>(input, "density_in_momentum"),
+                .kernel_normalisation = enumerator<KernelNormalisation>(input, "kernel_normalisation"),
+                .damping = std::nullopt};
+  if (const double rate = input.required_number("damping_rate"); rate > 0.0) scheme.damping = Damping{rate};
+  return scheme;
+}
+
+template <int Dim>
+Tensor<Dim> make_tensor(const Case& input, std::string_view key) {
+  const auto rows = input.numbers(key);
+  if (!rows) return Tensor<Dim>::Zero();
+  require_length(key, rows->size(), Dim * Dim);
+  return Eigen::Map<const Tensor<Dim>>(rows->data()).transpose();
+}
+
+}  // namespace
+
+void Case::set(std::string_view key, KeyValue value) {
+  check_value(find_key(key), value);
+  values_.insert_or_assign(std::string(key), std::move(value));
+}
+
+template <class Type>
+std::optional<Type> Case::value(std::string_view key) const {
+  if (const auto found = values_.find(key); found != values_.end()) return std::get<Type>(found->second);
+  const Key& entry = find_key(key);
+  if (entry.default_value.empty()) return std::nullopt;
+  return std::get<Type>(parse_value(entry, entry.default_value));
+}
+
+template std::optional<double> Case::value(std::string_view) const;
+template std::optional<std::string> Case::value(std::string_view) const;
+template std::optional<std::vector<double>> Case::value(std::string_view) const;
+
+double Case::required_number(std::string_view key) const {
+  if (const auto found = number(key)) return *found;
+  throw missing(find_key(key));
+}
+
+std::string Case::required_word(std::string_view key) const {
+  if (const auto found = word(key)) return *found;
+  throw missing(find_key(key));
+}
+
+template <int Dim>
+Kernel<Dim> make_kernel(const Case& input) {
+  refuse_both(input, "smoothing_length", "h_over_spacing");
+  const double h_over_spacing = input.number("h_over_spacing").value_or(default_h_over_spacing);
+  const double smoothing_length =
+      input.number("smoothing_length").value_or(h_over_spacing * input.required_number("spacing"));
+  return Kernel<Dim>(enumerator<KernelFamily>(input, "kernel"), smoothing_length,
+                     input.required_number("gaussian_cutoff"));
+}
+
+template <int Dim>
+Lattice<Dim> make_lattice(const Case& input) {
+  return Lattice<Dim>(enumerator<LatticeKind>(input, "lattice"), input.required_number("spacing"));
+}
+
+NeighbourRule neighbour_rule(const Case& input) { return enumerator<NeighbourRule>(input, "neighbours"); }
+
+template <int Dim>
+Problem<Dim> make_problem(const Case& input) {
+  Problem<Dim> problem{.lattice = make_lattice<Dim>(input),
+                       .kernel = make_kernel<Dim>(input),
+                       .neighbour_rule = neighbour_rule(input),
+                       .material = make_material(input),
+                       .plane = enumerator<Plane>(input, "plane"),
+                       .scheme = make_scheme(input),
+                       .integrator = enumerator<Integrator>(input, "integrator"),
+                       .displacement_gradient = make_tensor<Dim>(input, "displacement_gradient")};
+  problem.material.lame(problem.plane);  // refuses ν = 0.5 in plane strain
+  lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule);  // refuses no neighbour
+  return problem;
+}
+
+template <int Dim>
+Vector<Dim> make_wave_vector(const Case& input) {
+  refuse_both(input, "wave_vector", "mode");
+  if (const auto components = input.numbers("wave_vector")) {
+    require_length("wave_vector", components->size(), Dim);
+    return Eigen::Map<const Vector<Dim>>(components->data());
+  }
+  const auto mode = make_counts<Dim>(input, "mode");
+  if (!mode) throw InvalidInput("wave_vector: missing (or mode with box)");
+  const auto box = make_counts<Dim>(input, "box");
+  if (!box) throw missing(find_key("box"));
+  return std::numbers::pi / input.required_number("spacing") *
+         mode->template cast<double>().cwiseQuotient(box->template cast<double>());
+}
+
+template <int Dim>
+std::optional<LatticeIndex<Dim>> make_counts(const Case& input, std::string_view key) {
+  const auto counts = input.numbers(key);
+  if (!counts) return std::nullopt;
+  require_length(key, counts->size(), Dim);
+  return Eigen::Map<const Vector<Dim>>(counts->data()).template cast<int>();
+}
+
+template Kernel<1> make_kernel(const Case&);
+template Kernel<2> make_kernel(const Case&);
+template Kernel<3> make_kernel(const Case&);
+template Lattice<2> make_lattice(const Case&);
+template Problem<2> make_problem(const Case&);
+template Vector<2> make_wave_vector(const Case&);
+template std::optional<LatticeIndex<2>> make_counts(const Case&, std::string_view);
+
+}  // namespace sphstab

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "model/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "model/problem.hpp"
+
+namespace sphstab {
+namespace {
+
+constexpr Limits any_number{};
+constexpr Limits positive{.low = 0.0, .low_allowed = false};
+constexpr Limits not_negative{.low = 0.0};
+constexpr Limits at_least_one{.low = 1.0};
+
+constexpr std::array<std::string_view, 2> seed_words{"noise", "mode"};
+
+using enum KeyKind;
+using enum KeyGroup;
+
+const Key table[] = {
+    {"dimension", integer, discretisation, "2", "number of space dimensions", {.low = 1.0, .high = 3.0}},
+    {"lattice", word, discretisation, "square", "arrangement of the particles", any_number, all_names<LatticeKind>},
+    {"spacing", number, discretisation, "1", "particle spacing, a length", positive},
+    {"kernel", word, discretisation, "cubic-spline", "smoothing kernel", any_number, all_names<KernelFamily>},
+    {"smoothing_length", number, discretisation, "", "smoothing length h, a length; default 1.3 spacings", positive},
+    {"h_over_spacing", number, discretisation, "", "h in spacings, instead of smoothing_length", positive},
+    {"gaussian_cutoff", number, discretisation, "3", "support of the Gaussian in h, not renormalised", positive},
+    {"neighbours", word, discretisation, "support", "all sites within the support, or the nearest shell only",
+     any_number, all_names<NeighbourRule>},
+
+    {"density", number, material, "1", "reference density", positive},
+    {"young_modulus", number, material, "", "Young's modulus, with poisson_ratio", positive},
+    {"poisson_ratio", number, material, "", "Poisson's ratio, above -1 and below 0.5"},
+    {"bulk_modulus", number, material, "", "bulk modulus, with shear_modulus", positive},
+    {"shear_modulus", number, material, "", "shear modulus, stress over engineering shear strain", positive},
+    {"plane", word, material, "strain", "plane strain or plane stress", any_number, all_names<Plane>},
+
+    {"scheme", word, scheme, "", "discretisation: tl-linear (Zhang et al., total Lagrangian, linear)", any_number,
+     all_names<Formulation>},
+    {"integrator", word, scheme, "leapfrog", "time integrator", any_number, all_names<Integrator>},
+    {"density_in_momentum", word, scheme, "frozen", "density in the momentum equation", any_number,
+     all_names<MomentumDensity>},
+    {"displacement_gradient", numbers, scheme, "", "displacement gradient of the base state, row by row; default zeros"},
+    {"kernel_normalisation", word, scheme, "none", "division of the particle sums by the kernel sum", any_number,
+     all_names<KernelNormalisation>},
+    {"damping_rate", number, scheme, "0", "mass-proportional damping, 1/time", not_negative},
+
+    {"wave_vector", numbers, mode, "", "wave vector k, radians per length"},
+    {"mode", integers, mode, "", "m,l of k = (m pi/(M spacing), l pi/(L spacing)), with box", any_number},
+    {"box", integers, mode, "", "M,L of mode, in particles", at_least_one},
+
+    {"time_step", number, time, "", "time step", positive},
+    {"tolerated_growth_per_step", number, time, "", "growth per step, max abs(lambda) - 1, that is acceptable", positive},
+    {"steps", number, time, "", "instead of it: number of steps in which a factor e is acceptable", at_least_one},
+
+    {"patch", integers, search, "", "periodic cells along each primitive vector; default 16 each", at_least_one},
+    {"plate", integers, search, "", "particles of a free rectangular plate, instead of patch", {.low = 2.0}},
+    {"seed", word, search, "noise", "start from noise, or from the critical mode of the theory", any_number, seed_words},
+    {"noise_seed", integer, search, "1", "seed of the random numbers", not_negative},
+    {"tolerance", number, search, "1e-6", "relative width of the bracket", {.low = 1e-9, .high = 0.1}},
+    {"horizon", integer, search, "", "steps of a run; default from the tolerance", {.low = 30.0}},
+    {"command", text, search, "",
+     "foreign solver: a shell command in which {time_step} and {steps} are replaced and that prints one amplitude a step"},
+
+    {"distance", number, distance, "", "distance of two particles, a length", not_negative},
+    {"artificial_stress_exponent", number, lattice_sums, "4", "exponent n of the artificial stress", not_negative},
+};
+
+double parse_number(const Key& key, std::string_view word) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size())
+    throw InvalidInput(fmt::format("{}: '{}' is not a number", key.name, word));
+  return value;
+}
+
+std::vector<double> parse_list(const Key& key, std::string_view text) {
+  std::vector<double> values;
+  for (;;) {
+    const auto comma = text.find(',');
+    values.push_back(parse_number(key, text.substr(0, comma)));
+    if (comma == std::string_view::npos) return values;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+void check_number(const Key& key, double value) {
+  if (!std::isfinite(value)) throw InvalidInput(fmt::format("{}: {} is not a finite number", key.name, value));
+  if ((key.kind == integer || key.kind == integers) && value != std::floor(value))
+    throw InvalidInput(fmt::format("{}: {} is not a whole number", key.name, value));
+  if (value < key.limits.low || (!key.limits.low_allowed && value == key.limits.low))
+    throw InvalidInput(fmt::format("{}: {} is not {} {}", key.name, value,
+                                   key.limits.low_allowed ? "at least" : "above", key.limits.low));
+  if (value > key.limits.high)
+    throw InvalidInput(fmt::format("{}: {} is not at most {}", key.name, value, key.limits.high));
+  // Counts are stored as int further on.
+  if ((key.kind == integer || key.kind == integers) && std::abs(value) > std::numeric_limits<int>::max())
+    throw InvalidInput(fmt::format("{}: {} is too large", key.name, value));
+}
+
+}  // namespace
+
+std::span<const Key> key_table() { return table; }
+
+const Key& find_key(std::string_view name) {
+  const auto found = std::find_if(std::begin(table), std::end(table), [&](const Key& key) { return key.name == name; });
+  if (found != std::end(table)) return *found;
+  std::vector<std::string_view> names;
+  for (const Key& key : table) names.push_back(key.name);
+  throw unknown_word("key", name, names);
+}
+
+KeyValue parse_value(const Key& key, std::string_view text_given) {
+  switch (key.kind) {
+    case number:
+    case integer:
+      return parse_number(key, text_given);
+    case numbers:
+    case integers:
+      return parse_list(key, text_given);
+    case word:
+    case text:
+      return std::string(text_given);
+  }
+  return {};
+}
+
+void check_value(const Key& key, const KeyValue& value) {
+  switch (key.kind) {
+    case number:
+    case integer:
+      if (!std::holds_alternative<double>(value)) throw InvalidInput(fmt::format("{}: is not a number", key.name));
+      return check_number(key, std::get<double>(value));
+    case numbers:
+    case integers:
+      if (!std::holds_alternative<std::vector<double>>(value))
+        throw InvalidInput(fmt::format("{}: is not a list of numbers", key.name));
+      for (const double component : std::get<std::vector<double>>(value)) check_number(key, component);
+      return;
+    case word:
+    case text:
+      if (!std::holds_alternative<std::string>(value)) throw InvalidInput(fmt::format("{}: is not a word", key.name));
+      if (const auto& given = std::get<std::string>(value);
+          !key.words.empty() && std::find(key.words.begin(), key.words.end(), given) == key.words.end())
+        throw unknown_word(key.name, given, key.words);
+      return;
+  }
+}
+
+}  // namespace sphstab
