@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "study/bisection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sphstab::study {
+namespace {
+
+using solver::GrowthFit;
+using solver::Trend;
+
+constexpr double scan_factor = 1.2;
+/// The scan gives up after this many steps in one direction: a factor of 1.2^50 = 9100.
+constexpr int scan_limit = 50;
+/// The scan only looks for an exit; a growth of 3/200 per step is that of a step 3e-5 above the limit.
+constexpr long scan_horizon = 200;
+/// Refinement halves the bracket at worst every second run, from 20 % to 1e-9: 56 runs.
+constexpr int refinement_limit = 80;
+
+struct GrowingStep {
+  double time_step;
+  double growth;
+};
+
+class Search {
+ public:
+  Search(const GrowthProbe& probe, const BisectionOptions& options)
+      : probe_(probe), options_(options), horizon_(options.horizon.value_or(default_horizon(options.tolerance))) {}
+
+  Bisection run() {
+    if (scan()) refine();
+    return {critical_time_step(), low_, high_, horizon_, runs_, steps_, smallest_detectable_};
+  }
+
+ private:
+  bool grows(double time_step, long horizon) {
+    const GrowthFit fit = probe_(time_step, horizon);
+    ++runs_;
+    steps_ += fit.steps;
+    const bool growing = fit.trend != Trend::bounded;
+    if (growing) {
+      high_ = time_step;
+      farther_ = nearest_;
+      nearest_ = GrowingStep{time_step, fit.growth_per_step};
+    } else {
+      low_ = time_step;
+      low_horizon_ = horizon;
+      smallest_detectable_ = fit.smallest_detectable;
+    }
+    if (options_.progress) options_.progress(runs_, low_, high_);
+    return growing;
+  }
+
+  /// Finds neighbouring steps of the scan, the lower one bounded and the upper one growing.
+  bool scan() {
+    const long horizon = std::min(scan_horizon, horizon_);
+    double time_step = options_.start;
+    if (grows(time_step, horizon)) {
+      for (int i = 0; i < scan_limit; ++i)
+        if (!grows(time_step /= scan_factor, horizon)) return true;
+      return false;
+    }
+    for (int i = 0; i < scan_limit; ++i)
+      if (grows(time_step *= scan_factor, horizon)) return true;
+    return false;
+  }
+
+  /// Where growth² vanishes on the line through the two nearest growing steps, if that lies below them.
+  std::optional<double> extrapolated_root() const {
+    if (!nearest_ || !farther_) return std::nullopt;
+    const double g1 = nearest_->growth * nearest_->growth, g2 = farther_->growth * farther_->growth;
+    if (!(g2 > g1)) return std::nullopt;
+    return nearest_->time_step - g1 * (farther_->time_step - nearest_->time_step) / (g2 - g1);
+  }
+
+  double next_step() const {
+    const double margin = 0.25 * options_.tolerance * high_;
+    const auto root = extrapolated_root();
+    if (!root || *root <= low_ - margin || *root >= high_) return 0.5 * (low_ + high_);
+    // Far away: just above the root, for a better root. Close: a quarter of the tolerance above, then below.
+    if (high_ - *root > 8.0 * margin) return *root + std::max(0.02 * (high_ - *root), margin);
+    if (high_ - *root > 1.5 * margin) return *root + margin;
+    return *root - margin > low_ ? *root - margin : 0.5 * (low_ + high_);
+  }
+
+  void refine() {
+    for (int i = 0; i < refinement_limit; ++i) {
+      if (high_ - low_ > options_.tolerance * high_)
+        grows(next_step(), horizon_);
+      else if (low_horizon_ == horizon_)
+        return;
+      else if (grows(low_, horizon_))  // the scan was too short to see it: go on below
+        low_ /= scan_factor;
+    }
+  }
+
+  std::optional<double> critical_time_step() const {
+    if (!(low_ > 0.0) || !std::isfinite(high_)) return std::nullopt;
+    const auto root = extrapolated_root();
+    return root && *root > low_ && *root < high_ ? *root : 0.5 * (low_ + high_);
+  }
+
+  const GrowthProbe& probe_;
+  const BisectionOptions& options_;
+  long horizon_;
+  double low_ = 0.0;
+  long low_horizon_ = 0;  ///< of the run that found `low_` bounded
+  double high_ = std::numeric_limits<double>::infinity();
+  std::optional<GrowingStep> nearest_, farther_;
+  int runs_ = 0;
+  long steps_ = 0;
+  double smallest_detectable_ = 0.0;
+};
+
+}  // namespace
+
+long default_horizon(double tolerance) { return static_cast<long>(std::ceil(5.0 / std::sqrt(2.0 * tolerance))); }
+
+Bisection bisect(const GrowthProbe& probe, const BisectionOptions& options) { return Search(probe, options).run(); }
+
+}  // namespace sphstab::study

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "solver/growth.hpp"
+
+namespace sphstab::study {
+
+/// Anything that can be run at a time step for some steps and judged: our solver, or a foreign program.
+using GrowthProbe = std::function<solver::GrowthFit(double time_step, long horizon)>;
+
+struct BisectionOptions {
+  double start;                  ///< first step of the scan, a time; a rule of thumb well inside the stable range
+  double tolerance = 1e-6;       ///< relative width of the final bracket
+  std::optional<long> horizon = std::nullopt;  ///< steps of a run in the final bracket; default_horizon(tolerance) if absent
+  std::function<void(int runs, double low, double high)> progress = nullptr;
+};
+
+/// What running found. No critical step: with `low` only nothing grew up to there, with `high` only everything grew.
+struct Bisection {
+  std::optional<double> critical_time_step;  ///< root of the fitted growth inside the bracket
+  double low;                                ///< largest step found bounded; 0 if none
+  double high;                               ///< smallest step found growing; infinity if none
+  long horizon;
+  int runs;
+  long steps;                  ///< over all runs
+  double smallest_detectable;  ///< growth per step that the horizon can show
+};
+
+/// Steps after which growth at a quarter of the tolerance above the limit shows: two eigenvalues that meet at −1 leave
+/// the circle as |λ| = 1 + √(8δ) at Δt = (1 + δ) Δt_c, and five e-foldings of δ = tolerance/4 are asked for.
+long default_horizon(double tolerance);
+
+/// The critical step by running. Scans upwards from `start` in steps of 20 % to the first exit (the stable set need not
+/// be an interval), then closes the bracket around the root of growth² extrapolated from the two growing steps nearest
+/// to it (growth² is analytic in Δt where two eigenvalues meet on the circle), halving where that does not help. Both
+/// ends of the final bracket were run. Tested in tests/study/test_bisection.cpp.
+Bisection bisect(const GrowthProbe& probe, const BisectionOptions& options);
+
+}  // namespace sphstab::study

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "study/bisection.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+using namespace sphstab;
+using solver::GrowthFit;
+using solver::Trend;
+
+namespace {
+
+/// A probe that answers with a known growth law, seen only if it is one e-folding in a third of the horizon.
+study::GrowthProbe growth_law(double (*growth)(double time_step)) {
+  return [growth](double time_step, long horizon) {
+    const double smallest = 3.0 / static_cast<double>(horizon);
+    const double rate = growth(time_step);
+    return GrowthFit{rate < smallest ? Trend::bounded : Trend::growing, rate, smallest, horizon};
+  };
+}
+
+/// Two eigenvalues meet at −1, as for leapfrog beyond ωΔt = 2, ω = 3.
+double square_root_law(double time_step) {
+  return time_step < 2.0 / 3.0 ? 0.0 : 2.0 * std::acosh(3.0 * time_step / 2.0);
+}
+
+constexpr double tolerance = 1e-6;
+
+}  // namespace
+
+TEST_CASE("bisection finds the exit of a square-root law within its tolerance and run both ends", "[fast]") {
+  for (const double start : {0.001, 0.1, 0.66, 0.7, 30.0}) {
+    INFO("start " << start);
+    const auto found = study::bisect(growth_law(square_root_law), {.start = start, .tolerance = tolerance});
+    REQUIRE(found.critical_time_step);
+    CHECK(found.low < found.high);
+    CHECK(found.high - found.low <= tolerance * found.high);
+    CHECK(*found.critical_time_step == Approx(2.0 / 3.0).epsilon(tolerance));
+    CHECK(found.low <= 2.0 / 3.0 * (1 + tolerance));
+    CHECK(found.high >= 2.0 / 3.0);
+  }
+}
+
+TEST_CASE("the root of growth squared needs far fewer runs than halving", "[fast]") {
+  const auto found = study::bisect(growth_law(square_root_law), {.start = 0.5, .tolerance = tolerance});
+  // Scan from 0.5 in steps of 20 %: 2 runs; halving from 20 % to 1e-6 would take 18 more.
+  CHECK(found.runs <= 12);
+}
+
+TEST_CASE("a law that is no square root is bracketed all the same", "[fast]") {
+  const auto linear = [](double time_step) { return 40.0 * (time_step - 1.0); };
+  const auto found = study::bisect(growth_law(linear), {.start = 0.3, .tolerance = 1e-3, .horizon = 1000000});
+  REQUIRE(found.critical_time_step);
+  CHECK(found.high - found.low <= 1e-3 * found.high);
+  CHECK(found.low <= 1.0 + 1e-6);
+  CHECK(found.high >= 1.0);
+}
+
+TEST_CASE("growth that the short scan overlooks is found by the full horizon", "[fast]") {
+  // 0.005 a step between 0.5 and 1: 200 steps of the scan see 3/200 = 0.015 and more only.
+  const auto foot = [](double time_step) { return time_step < 0.5 ? 0.0 : time_step < 1.0 ? 0.005 : 1.0; };
+  const auto found = study::bisect(growth_law(foot), {.start = 0.1, .tolerance = 1e-4, .horizon = 3000});
+  REQUIRE(found.critical_time_step);
+  CHECK(*found.critical_time_step == Approx(0.5).epsilon(1e-4));
+}
+
+TEST_CASE("the first exit is reported where a second stable window follows", "[fast]") {
+  const auto window = [](double time_step) { return time_step < 1.0 || (time_step > 2.0 && time_step < 3.0) ? 0.0 : 0.5; };
+  const auto found = study::bisect(growth_law(window), {.start = 0.2, .tolerance = 1e-4});
+  REQUIRE(found.critical_time_step);
+  CHECK(*found.critical_time_step == Approx(1.0).epsilon(1e-4));
+}
+
+TEST_CASE("no critical step is made up where everything or nothing grows", "[fast]") {
+  const auto always = study::bisect(growth_law([](double) { return 1.0; }), {.start = 1.0});
+  CHECK_FALSE(always.critical_time_step);
+  CHECK(always.low == 0.0);
+  const auto never = study::bisect(growth_law([](double) { return 0.0; }), {.start = 1.0});
+  CHECK_FALSE(never.critical_time_step);
+  CHECK(std::isinf(never.high));
+}
+
+TEST_CASE("runs and steps are counted", "[fast]") {
+  std::vector<long> horizons;
+  const study::GrowthProbe counting = [&](double time_step, long horizon) {
+    horizons.push_back(horizon);
+    return growth_law(square_root_law)(time_step, horizon);
+  };
+  const auto found = study::bisect(counting, {.start = 0.5, .tolerance = tolerance});
+  CHECK(found.runs == static_cast<int>(horizons.size()));
+  long steps = 0;
+  for (const long horizon : horizons) steps += horizon;
+  CHECK(found.steps == steps);
+  CHECK(found.horizon == horizons.back());
+}
