@@ -32,11 +32,12 @@ Material make_material(const Case& input) {
   for (const auto one : {"young_modulus", "poisson_ratio"})
     for (const auto other : {"bulk_modulus", "shear_modulus"}) refuse_both(input, one, other);
   const double density = input.required_number("density");
-  if (input.has("bulk_modulus") || input.has("shear_modulus"))
-    return Material::from_bulk_modulus(density, input.required_number("bulk_modulus"),
-                                       input.required_number("shear_modulus"));
-  return Material::from_young_modulus(density, input.required_number("young_modulus"),
-                                      input.required_number("poisson_ratio"));
+  if (input.has("bulk_modulus") || input.has("shear_modulus")) {
+    const double bulk_modulus = input.required_number("bulk_modulus");
+    return Material::from_bulk_modulus(density, bulk_modulus, input.required_number("shear_modulus"));
+  }
+  const double young_modulus = input.required_number("young_modulus");
+  return Material::from_young_modulus(density, young_modulus, input.required_number("poisson_ratio"));
 }
 
 Scheme make_scheme(const Case& input) {

@@ -17,7 +17,7 @@ struct Problem {
   NeighbourRule neighbour_rule = NeighbourRule::support;
   Material material;
   Plane plane = Plane::strain;
-  Scheme scheme;
+  Scheme scheme = {};
   Integrator integrator = Integrator::leapfrog;
   /// Base state of `tl-linear`: displacement u(x) = H x; perturbations are added to it.
   Tensor<Dim> displacement_gradient = Tensor<Dim>::Zero();

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "model/body.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace sphstab;
+
+namespace {
+
+/// Differences of positions that are sums of a few doubles of order ten.
+constexpr double rounding = 1e-13;
+
+Problem<2> problem(LatticeKind kind, double smoothing_length) {
+  return {.lattice = Lattice<2>(kind, 0.5),
+          .kernel = Kernel<2>(KernelFamily::cubic_spline, smoothing_length),
+          .material = Material::from_young_modulus(1.0, 1.0, 0.3)};
+}
+
+/// How often b is a neighbour of a with separation r_ab.
+int occurrences(const Body<2>& body, int a, int b, const Vector<2>& separation) {
+  int found = 0;
+  for (int entry = body.pairs.first[a]; entry < body.pairs.first[a + 1]; ++entry)
+    found += body.pairs.neighbour[entry] == b && (body.pairs.separation[entry] - separation).norm() < rounding;
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a plate has exactly the pairs that brute force finds", "[fast]") {
+  const auto p = problem(LatticeKind::square, 0.65);
+  const auto plate = free_plate<2>(p, {7, 4});
+  REQUIRE(plate.size() == 28);
+  CHECK((plate.position[7 * 2 + 3] - Vector<2>(1.5, 1.0)).norm() == 0.0);  // x fastest
+  int pairs = 0;
+  for (int a = 0; a < plate.size(); ++a)
+    for (int b = 0; b < plate.size(); ++b) {
+      const Vector<2> separation = plate.position[a] - plate.position[b];
+      const bool expected = a != b && separation.norm() < p.kernel.support() * (1.0 - tie_margin);
+      CHECK(occurrences(plate, a, b, separation) == (expected ? 1 : 0));
+      pairs += expected;
+    }
+  CHECK(pairs == plate.pairs.first.back());
+}
+
+TEST_CASE("a periodic patch has every image within the support, also where it is smaller than the support", "[fast]") {
+  constexpr int images = 6;
+  for (const auto kind : {LatticeKind::square, LatticeKind::hexagonal, LatticeKind::staggered})
+    for (const LatticeIndex<2>& cells : {LatticeIndex<2>(5, 4), LatticeIndex<2>(2, 3), LatticeIndex<2>(1, 1)}) {
+      INFO(name_of(kind) << " " << cells.transpose());
+      const auto p = problem(kind, 0.8);
+      const auto patch = periodic_patch<2>(p, cells);
+      int pairs = 0;
+      for (int a = 0; a < patch.size(); ++a)
+        for (int b = 0; b < patch.size(); ++b)
+          for (int i = -images; i <= images; ++i)
+            for (int j = -images; j <= images; ++j) {
+              const Vector<2> shift = p.lattice.site({i * cells[0], j * cells[1]});
+              const Vector<2> separation = patch.position[a] - (patch.position[b] + shift);
+              if (separation.norm() < rounding || separation.norm() >= p.kernel.support() * (1.0 - tie_margin)) continue;
+              CHECK(occurrences(patch, a, b, separation) == 1);
+              ++pairs;
+            }
+      CHECK(pairs == patch.pairs.first.back());
+    }
+}
+
+TEST_CASE("plates need the square lattice and at least two particles each way", "[fast]") {
+  CHECK_THROWS_WITH(free_plate<2>(problem(LatticeKind::hexagonal, 0.8), {4, 4}), Catch::StartsWith("plate: a free plate"));
+  CHECK_THROWS_WITH(free_plate<2>(problem(LatticeKind::square, 0.8), {4, 1}), Catch::StartsWith("plate: 4,1 has a count"));
+  CHECK_THROWS_WITH(periodic_patch<2>(problem(LatticeKind::square, 0.8), {4, 0}), Catch::StartsWith("patch: 4,0"));
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "model/lattice.hpp"
+
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <numbers>
+
+using namespace sphstab;
+
+namespace {
+
+/// Products of a handful of doubles of order one.
+constexpr double rounding = 1e-14;
+
+int count(LatticeKind kind, double support, NeighbourRule rule = NeighbourRule::support) {
+  return static_cast<int>(lattice_neighbours(Lattice<2>(kind, 1.0), support, rule).size());
+}
+
+}  // namespace
+
+TEST_CASE("primitive and reciprocal vectors are dual to each other", "[fast]") {
+  for (const auto& [kind, name] : Names<LatticeKind>::table) {
+    INFO(name);
+    const Lattice<2> lattice(kind, 0.3);
+    const Tensor<2> products = lattice.primitive_vectors().transpose() * lattice.reciprocal_vectors();
+    CHECK((products - 2.0 * std::numbers::pi * Tensor<2>::Identity()).norm() < rounding);
+  }
+}
+
+TEST_CASE("the volume of a particle is that of the cell", "[fast]") {
+  CHECK(Lattice<2>(LatticeKind::square, 0.3).cell_volume() == Approx(0.09).epsilon(rounding));
+  CHECK(Lattice<2>(LatticeKind::hexagonal, 1.0).cell_volume() == Approx(std::numbers::sqrt3 / 2).epsilon(rounding));
+  CHECK(Lattice<2>(LatticeKind::staggered, 2.0).cell_volume() == Approx(4.0).epsilon(rounding));
+}
+
+TEST_CASE("the neighbours within a support are those of a brute-force search", "[fast]") {
+  constexpr int reach = 12;
+  for (const auto& [kind, name] : Names<LatticeKind>::table)
+    for (const double support : {1.01, 1.3, 2.0, 2.6, 3.9, 5.05}) {
+      INFO(name << " support " << support);
+      const Lattice<2> lattice(kind, 1.0);
+      const auto found = lattice_neighbours(lattice, support, NeighbourRule::support);
+      int expected = 0;
+      for (int i = -reach; i <= reach; ++i)
+        for (int j = -reach; j <= reach; ++j) {
+          const double distance = lattice.site({i, j}).norm();
+          if ((i == 0 && j == 0) || distance >= support * (1.0 - tie_margin)) continue;
+          ++expected;
+          CHECK(std::count_if(found.begin(), found.end(),
+                              [&](const auto& neighbour) { return neighbour.index == LatticeIndex<2>(i, j); }) == 1);
+        }
+      CHECK(static_cast<int>(found.size()) == expected);
+    }
+}
+
+TEST_CASE("sites exactly on the support are no neighbours", "[fast]") {
+  CHECK(count(LatticeKind::square, 2.0) == 8);
+  CHECK(count(LatticeKind::square, 2.0 * (1.0 + 1e-9)) == 12);
+  CHECK(count(LatticeKind::square, 2.6) == 20);
+  CHECK(count(LatticeKind::hexagonal, 2.6) == 18);
+}
+
+TEST_CASE("the nearest shell has four, six and two sites", "[fast]") {
+  CHECK(count(LatticeKind::square, 3.0, NeighbourRule::nearest) == 4);
+  CHECK(count(LatticeKind::hexagonal, 3.0, NeighbourRule::nearest) == 6);
+  CHECK(count(LatticeKind::staggered, 3.0, NeighbourRule::nearest) == 2);
+}
+
+TEST_CASE("a support without neighbours and a spacing that is not positive are refused", "[fast]") {
+  CHECK_THROWS_WITH(lattice_neighbours(Lattice<2>(LatticeKind::square, 1.0), 1.0, NeighbourRule::support),
+                    Catch::StartsWith("smoothing_length: no neighbour"));
+  CHECK_THROWS_WITH(Lattice<2>(LatticeKind::square, -1.0), Catch::StartsWith("spacing: -1"));
+}
