@@ -6,8 +6,9 @@
 
 #include "solver/simulation.hpp"
 
-/// One leapfrog step on a periodic square patch with 20 neighbours, and beside it a triad over arrays of the size that a
-/// step reads, so that figures of different machines compare as ratios. Both report nanoseconds of CPU time per particle.
+/// One leapfrog step on a periodic square patch with 20 neighbours, and beside it a triad over arrays of the size that
+/// a step reads, so that figures of different machines compare as ratios. Both report nanoseconds of CPU time per
+/// particle.
 namespace {
 
 using namespace sphstab;
@@ -20,8 +21,7 @@ constexpr int bytes_per_pair = 2 * sizeof(double) + sizeof(int);
 void report_per_particle(benchmark::State& timing, double particles) {
   using benchmark::Counter;
   timing.counters["particles"] = particles;
-  timing.counters["per_particle"] =
-      Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
+  timing.counters["per_particle"] = Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
 /// side² particles, moving as a standing wave far below the critical step.
@@ -37,7 +37,8 @@ void step(benchmark::State& timing) {
   solver::Simulation<2, Scalar> simulation(problem, body);
   solver::State<2, Scalar> state(body.size());
   for (int a = 0; a < body.size(); ++a)
-    state.velocity[a].setConstant(static_cast<Scalar>(1e-3 * std::sin(2.0 * std::numbers::pi / side * body.position[a].sum())));
+    state.velocity[a].setConstant(
+        static_cast<Scalar>(1e-3 * std::sin(2.0 * std::numbers::pi / side * body.position[a].sum())));
   for (auto _ : timing) simulation.advance(state, 0.1);
   benchmark::DoNotOptimize(state.displacement.data());
   report_per_particle(timing, body.size());

@@ -5,8 +5,8 @@
 
 #include "solver/simulation.hpp"
 
-/// Bloch waves y_a = ŷ e^{ik·x_a} on a periodic patch, and what the running solver does to them. On a lattice a step maps
-/// the Bloch waves of one wave vector to themselves, so a small complex matrix says it all.
+/// Bloch waves y_a = ŷ e^{ik·x_a} on a periodic patch, and what the running solver does to them. On a lattice a step
+/// maps the Bloch waves of one wave vector to themselves, so a small complex matrix says it all.
 namespace sphstab::solver {
 
 /// The wave ŷ e^{ik·x}; k in radians per length. Its real and imaginary parts are the fields that a real run may carry.
@@ -24,8 +24,8 @@ Vector<Dim, std::complex<double>> bloch_amplitude(const Body<Dim>& body, const V
 template <int Dim>
 using BlochStepMatrix = Eigen::Matrix<std::complex<double>, 2 * Dim, 2 * Dim>;
 
-/// −M(k): the amplitude of the accelerations for a displacement ŝ e^{ik·x} of the base state at rest; 1 / time². Measured
-/// on the real solver, exact to rounding also for a nonlinear scheme (solver/step_jacobian.hpp).
+/// −M(k): the amplitude of the accelerations for a displacement ŝ e^{ik·x} of the base state at rest; 1 / time².
+/// Measured on the real solver, exact to rounding also for a nonlinear scheme (solver/step_jacobian.hpp).
 template <int Dim>
 Tensor<Dim, std::complex<double>> bloch_acceleration_matrix(const Problem<Dim>& problem, const Body<Dim>& patch,
                                                             const Vector<Dim>& wave_vector);

@@ -92,7 +92,8 @@ void Simulation<Dim, Scalar>::elastic_accelerations(const Field<Dim, Scalar>& di
   }
   for (int a = 0; a < particles(); ++a) {
     Vector<Dim, Scalar> sum = Vector<Dim, Scalar>::Zero();
-    for (int pair = first_[a]; pair < first_[a + 1]; ++pair) sum += momentum_term(P_[a], P_[neighbour_[pair]], g_[pair]);
+    for (int pair = first_[a]; pair < first_[a + 1]; ++pair)
+      sum += momentum_term(P_[a], P_[neighbour_[pair]], g_[pair]);
     acceleration[a] = sum;
   }
   ++right_hand_sides_;
@@ -102,7 +103,8 @@ template <int Dim, class Scalar>
 void Simulation<Dim, Scalar>::accelerations(const State<Dim, Scalar>& state, Field<Dim, Scalar>& acceleration) {
   elastic_accelerations(state.displacement, acceleration);
   if (damping_)
-    for (int a = 0; a < particles(); ++a) acceleration[a] -= static_cast<Real<Scalar>>(damping_->rate) * state.velocity[a];
+    for (int a = 0; a < particles(); ++a)
+      acceleration[a] -= static_cast<Real<Scalar>>(damping_->rate) * state.velocity[a];
 }
 
 template <int Dim, class Scalar>
@@ -123,7 +125,8 @@ Scalar Simulation<Dim, Scalar>::strain_energy(const State<Dim, Scalar>& state) c
   Scalar twice_energy(0);
   for (int a = 0; a < particles(); ++a) {
     const Tensor<Dim, Scalar> strain = perturbation_strain(state.displacement, a);
-    twice_energy += static_cast<Real<Scalar>>(volume_[a]) * linear_elastic_stress(strain, lame_).cwiseProduct(strain).sum();
+    twice_energy +=
+        static_cast<Real<Scalar>>(volume_[a]) * linear_elastic_stress(strain, lame_).cwiseProduct(strain).sum();
   }
   return twice_energy / Real<Scalar>(2);
 }

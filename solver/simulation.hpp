@@ -14,7 +14,8 @@ namespace sphstab::solver {
 ///
 /// With g_ab = V_b ∂W_ab/∂x_a of the reference state, divided by N_a = Σ_b V_b W_ab (W(0) included) if the scheme
 /// normalises, u = H x + s and P = ρ0 σ/ρ²,
-///   ε_a = sym Σ_b (u_b − u_a) ⊗ g_ab (9),   σ = λ tr(ε) I + 2 G ε (3, 8),   dv_a/dt = Σ_b (P_a + P_b) · g_ab − c v_a (7),
+///   ε_a = sym Σ_b (u_b − u_a) ⊗ g_ab (9),   σ = λ tr(ε) I + 2 G ε (3, 8),   dv_a/dt = Σ_b (P_a + P_b) · g_ab − c v_a
+///   (7),
 /// where ρ is ρ0 or exp(−tr₃ε) ρ0 (6). Kernels are evaluated in the constructor only; nothing is allocated afterwards.
 /// Scalar is double, float, or std::complex<double> for derivatives by complex step (solver/step_jacobian.hpp).
 /// Checked against sums over all pairs in tests/solver/test_accelerations.cpp.
@@ -34,8 +35,8 @@ class Simulation {
   /// ε of particle a, base state included (9).
   Tensor<Dim, Scalar> strain(const State<Dim, Scalar>& state, int a) const;
 
-  /// ½ Σ_a V_a σ(δε_a) : δε_a, an energy (per thickness in 2-D), where δε is the strain of the perturbation s alone: zero
-  /// for a translation and for every zero-energy mode.
+  /// ½ Σ_a V_a σ(δε_a) : δε_a, an energy (per thickness in 2-D), where δε is the strain of the perturbation s alone:
+  /// zero for a translation and for every zero-energy mode.
   Scalar strain_energy(const State<Dim, Scalar>& state) const;
 
   /// How often the sums of Eqs. 7 and 9 have been evaluated.
@@ -56,7 +57,7 @@ class Simulation {
   std::vector<double> volume_;
   std::vector<int> first_;
   std::vector<int> neighbour_;
-  Field<Dim, Real<Scalar>> g_;                         ///< per pair
+  Field<Dim, Real<Scalar>> g_;                          ///< per pair
   std::vector<Tensor<Dim, Real<Scalar>>> base_strain_;  ///< sym Σ_b H r_ba ⊗ g_ab
 
   std::vector<Tensor<Dim, Scalar>> P_;  ///< ρ0 σ/ρ² of the last evaluation

@@ -21,9 +21,8 @@ Field<Dim, std::complex<double>> imaginary_step(const Field<Dim>& direction) {
 template <int Dim>
 Field<Dim> derivative_of(const Field<Dim, std::complex<double>>& image) {
   Field<Dim> field(image.size());
-  std::transform(image.begin(), image.end(), field.begin(), [](const Vector<Dim, std::complex<double>>& y) {
-    return Vector<Dim>(y.imag() / complex_step);
-  });
+  std::transform(image.begin(), image.end(), field.begin(),
+                 [](const Vector<Dim, std::complex<double>>& y) { return Vector<Dim>(y.imag() / complex_step); });
   return field;
 }
 

@@ -23,8 +23,8 @@ State<Dim> step_derivative(DerivativeSimulation<Dim>& simulation, const State<Di
 template <int Dim>
 Field<Dim> acceleration_derivative(DerivativeSimulation<Dim>& simulation, const Field<Dim>& direction);
 
-/// The Jacobian of one step, 2 Dim N × 2 Dim N. Row and column 2 Dim a + i hold v_i of particle a, 2 Dim a + Dim + i its
-/// s_i. Dense, one step a column: for small patches.
+/// The Jacobian of one step, 2 Dim N × 2 Dim N. Row and column 2 Dim a + i hold v_i of particle a, 2 Dim a + Dim + i
+/// its s_i. Dense, one step a column: for small patches.
 template <int Dim>
 Eigen::MatrixXd step_jacobian(const Problem<Dim>& problem, const Body<Dim>& body, double time_step);
 

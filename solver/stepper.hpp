@@ -26,11 +26,11 @@ void drift(Real<Scalar> time_step, State<Dim, Scalar>& state) {
 
 /// `steps` steps of the integrator for F(r, v) = A(r) − c v, where elastic(displacement, A) writes A into the buffer.
 /// Zhang's Eqs. 10 and 11 are `leapfrog` with v of the half step before. A pure function of (r, v): a call with n steps
-/// is n calls with one. It evaluates A n times with leapfrog and n + 1 times with Verlet, whose steps share the A between
-/// them, damped or not. Checked in tests/solver/test_stepper.cpp.
+/// is n calls with one. It evaluates A n times with leapfrog and n + 1 times with Verlet, whose steps share the A
+/// between them, damped or not. Checked in tests/solver/test_stepper.cpp.
 template <int Dim, class Scalar, class Elastic>
-void advance(Integrator integrator, const Elastic& elastic, const std::optional<Damping>& damping, Real<Scalar> time_step,
-             long steps, State<Dim, Scalar>& state, Field<Dim, Scalar>& A) {
+void advance(Integrator integrator, const Elastic& elastic, const std::optional<Damping>& damping,
+             Real<Scalar> time_step, long steps, State<Dim, Scalar>& state, Field<Dim, Scalar>& A) {
   switch (integrator) {
     case Integrator::leapfrog:
       for (long n = 0; n < steps; ++n) {

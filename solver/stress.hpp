@@ -18,7 +18,8 @@ Tensor<Dim, Scalar> linear_elastic_stress(const Tensor<Dim, Scalar>& strain, con
   return stress;
 }
 
-/// ρ/ρ0 = exp(−tr₃ε), Zhang et al., Eq. 6, with the three-dimensional trace κ tr ε also in plane stress (errata.md Z10).
+/// ρ/ρ0 = exp(−tr₃ε), Zhang et al., Eq. 6, with the three-dimensional trace κ tr ε also in plane stress (errata.md
+/// Z10).
 template <class Scalar, int Dim>
 Scalar density_ratio(const Tensor<Dim, Scalar>& strain, const LameConstants& lame) {
   using std::exp;

@@ -66,7 +66,8 @@ class PaperSums {
 
   template <class Visit>
   void for_each_partner(int i, const Visit& visit) const {
-    const double reach = problem_.neighbour_rule == NeighbourRule::nearest ? 1.001 * spacing : problem_.kernel.support();
+    const double reach =
+        problem_.neighbour_rule == NeighbourRule::nearest ? 1.001 * spacing : problem_.kernel.support();
     for (int j = 0; j < body_.size(); ++j)
       for (const auto& shift : shifts_) {
         const Vector<2> x_ij = body_.position[i] - body_.position[j] - shift;
@@ -122,7 +123,10 @@ struct TwoParticles {
   Problem<2> problem = plain_problem();
   double V_0 = 0.5, V_1 = 0.75;
   double slope = problem.kernel.slope(spacing);
-  Body<2> body{{{0.0, 0.0}, {spacing, 0.0}}, {V_0, V_1}, {{0, 0}, {1, 0}}, {{0, 1, 2}, {1, 0}, {{-spacing, 0.0}, {spacing, 0.0}}}};
+  Body<2> body{{{0.0, 0.0}, {spacing, 0.0}},
+               {V_0, V_1},
+               {{0, 0}, {1, 0}},
+               {{0, 1, 2}, {1, 0}, {{-spacing, 0.0}, {spacing, 0.0}}}};
 };
 
 }  // namespace
@@ -155,7 +159,8 @@ TEST_CASE("two particles that are pulled apart attract each other as worked out 
   state.displacement[1] = delta;
   // g_01 = −V_1 W' e_x, so ε_xx = V_1 |W'| δ_x and ε_xy = ½ V_1 |W'| δ_y; for particle 1 with V_0.
   const double pull = std::abs(two.slope) / density * (two.V_0 + two.V_1) * std::abs(two.slope);
-  const Vector<2> per_volume(pull * (lame.lambda + 2.0 * lame.shear_modulus) * delta[0], pull * lame.shear_modulus * delta[1]);
+  const Vector<2> per_volume(pull * (lame.lambda + 2.0 * lame.shear_modulus) * delta[0],
+                             pull * lame.shear_modulus * delta[1]);
 
   const Field<2> plain = accelerations_of(two.problem, two.body, state);
   CHECK((plain[0] - two.V_1 * per_volume).norm() < rounding * per_volume.norm());
@@ -208,7 +213,8 @@ TEST_CASE("a rigid translation gives no force and no energy, exactly", "[fast]")
   for (auto& problem : all_variants(plain_problem())) {
     if (!problem.displacement_gradient.isZero()) continue;
     INFO(describe(problem));
-    for (const auto& body : {free_plate(problem, LatticeIndex<2>(5, 4)), periodic_patch(problem, LatticeIndex<2>(5, 4))}) {
+    for (const auto& body :
+         {free_plate(problem, LatticeIndex<2>(5, 4)), periodic_patch(problem, LatticeIndex<2>(5, 4))}) {
       Simulation<2> simulation(problem, body);
       State<2> state(body.size());
       for (auto& s : state.displacement) s = Vector<2>(0.3, -1.7);
