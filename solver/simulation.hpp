@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "model/body.hpp"
+#include "solver/state.hpp"
+
+namespace sphstab::solver {
+
+/// The running solver of the total-Lagrangian linear scheme `tl-linear`: Zhang, Hu, Cui & Wang, Eqs. 6-11.
+///
+/// With g_ab = V_b ∂W_ab/∂x_a of the reference state, divided by N_a = Σ_b V_b W_ab (W(0) included) if the scheme
+/// normalises, u = H x + s and P = ρ0 σ/ρ²,
+///   ε_a = sym Σ_b (u_b − u_a) ⊗ g_ab (9),   σ = λ tr(ε) I + 2 G ε (3, 8),   dv_a/dt = Σ_b (P_a + P_b) · g_ab − c v_a
+///   (7),
+/// where ρ is ρ0 or exp(−tr₃ε) ρ0 (6). Kernels are evaluated in the constructor only; nothing is allocated afterwards.
+/// Scalar is double, float, or std::complex<double> for derivatives by complex step (solver/step_jacobian.hpp).
+/// Checked against sums over all pairs in tests/solver/test_accelerations.cpp.
+template <int Dim, class Scalar = double>
+class Simulation {
+ public:
+  Simulation(const Problem<Dim>& problem, const Body<Dim>& body);
+
+  int particles() const { return static_cast<int>(volume_.size()); }
+
+  /// F(r, v), force per mass (length / time²), into a buffer of particles() vectors.
+  void accelerations(const State<Dim, Scalar>& state, Field<Dim, Scalar>& acceleration);
+
+  /// `steps` steps of the problem's integrator (solver/stepper.hpp). A pure function of the state.
+  void advance(State<Dim, Scalar>& state, double time_step, long steps = 1);
+
+  /// ε of particle a, base state included (9).
+  Tensor<Dim, Scalar> strain(const State<Dim, Scalar>& state, int a) const;
+
+  /// ½ Σ_a V_a σ(δε_a) : δε_a, an energy (per thickness in 2-D), where δε is the strain of the perturbation s alone:
+  /// zero for a translation and for every zero-energy mode.
+  Scalar strain_energy(const State<Dim, Scalar>& state) const;
+
+  /// How often the sums of Eqs. 7 and 9 have been evaluated.
+  long right_hand_sides() const { return right_hand_sides_; }
+
+ private:
+  Tensor<Dim, Scalar> perturbation_strain(const Field<Dim, Scalar>& displacement, int a) const;
+  template <MomentumDensity density>
+  void store_stresses(const Field<Dim, Scalar>& displacement);
+  void elastic_accelerations(const Field<Dim, Scalar>& displacement, Field<Dim, Scalar>& acceleration);
+
+  LameConstants lame_;
+  double density_;
+  MomentumDensity momentum_density_;
+  std::optional<Damping> damping_;
+  Integrator integrator_;
+
+  std::vector<double> volume_;
+  std::vector<int> first_;
+  std::vector<int> neighbour_;
+  Field<Dim, Real<Scalar>> g_;                          ///< per pair
+  std::vector<Tensor<Dim, Real<Scalar>>> base_strain_;  ///< sym Σ_b H r_ba ⊗ g_ab
+
+  std::vector<Tensor<Dim, Scalar>> P_;  ///< ρ0 σ/ρ² of the last evaluation
+  Field<Dim, Scalar> acceleration_;
+  long right_hand_sides_ = 0;
+};
+
+extern template class Simulation<2, double>;
+extern template class Simulation<2, float>;
+extern template class Simulation<2, std::complex<double>>;
+
+}  // namespace sphstab::solver
