@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -25,7 +24,8 @@ struct CriticalMode {
   double omega;  ///< angular frequency in continuous time, undamped; of an unstable mode its growth rate
 };
 
-/// Stable up to `critical_time_step`, the largest Δt such that no smaller one grows.
+/// Stable up to `critical_time_step`, the largest Δt such that no smaller one grows. The formulas are those of ModeStep at
+/// the largest ω². Tested in tests/analysis/test_critical_step.cpp.
 template <int Dim>
 struct ConditionallyStable {
   double critical_time_step;
@@ -54,7 +54,8 @@ StepLimit<Dim> bulk_limit(const Problem<Dim>& problem);
 template <int Dim>
 StepLimit<Dim> mode_limit(const Problem<Dim>& problem, const Vector<Dim>& wave_vector);
 
-/// The limit over Zhang's modes (Eq. 13): k = (mπ/(MΔp), lπ/(LΔp)), m = 1…M, l = 1…L.
+/// The limit over Zhang's modes (Eq. 13): k = (mπ/(MΔp), lπ/(LΔp)), m = 1…M, l = 1…L. Throws InvalidInput (`box`) unless
+/// every count is at least 1; so does `patch_limit` (`patch`).
 template <int Dim>
 StepLimit<Dim> paper_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& box);
 
@@ -62,7 +63,7 @@ StepLimit<Dim> paper_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>&
 template <int Dim>
 StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
 
-/// max |D(k)| over the zone, 1 / length (`symbol_maximum`).
+/// max |D(k)| over the zone, 1 / length (`symbol_maximum`), kernel normalisation included.
 template <int Dim>
 double symbol_maximum(const Problem<Dim>& problem);
 
@@ -70,7 +71,9 @@ double symbol_maximum(const Problem<Dim>& problem);
 template <int Dim>
 double zone_spectral_radius(const Problem<Dim>& problem, double time_step);
 
-/// The largest Δt whose spectral radius over the zone is at most 1 + growth_per_step; nothing if there is none.
+/// The largest Δt such that no smaller one has a spectral radius over the zone above 1 + growth_per_step. Nothing where
+/// every Δt qualifies, or none does (`never-stable`, growth_per_step = 0). Throws InvalidInput
+/// (`tolerated_growth_per_step`) if negative.
 template <int Dim>
 std::optional<double> step_for_growth(const Problem<Dim>& problem, double growth_per_step);
 
@@ -79,7 +82,8 @@ std::optional<double> step_for_growth(const Problem<Dim>& problem, double growth
 template <int Dim>
 std::optional<double> published_bound(const Problem<Dim>& problem);
 
-/// The zero-energy modes: every k of the first Brillouin zone with D(k) = 0, Γ excluded, each once.
+/// The zero-energy modes: every k of the first Brillouin zone with D(k) = 0, Γ excluded, each class of equivalent k once
+/// (on the boundary of the zone the one with the largest first component, then second), shortest first.
 template <int Dim>
 struct ZeroEnergyModes {
   std::vector<Vector<Dim>> wave_vectors;
@@ -89,5 +93,15 @@ struct ZeroEnergyModes {
 
 template <int Dim>
 ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem);
+
+extern template StepLimit<2> bulk_limit(const Problem<2>&);
+extern template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
+extern template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
+extern template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
+extern template double symbol_maximum(const Problem<2>&);
+extern template double zone_spectral_radius(const Problem<2>&, double);
+extern template std::optional<double> step_for_growth(const Problem<2>&, double);
+extern template std::optional<double> published_bound(const Problem<2>&);
+extern template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
 
 }  // namespace sphstab::analysis

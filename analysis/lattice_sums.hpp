@@ -10,6 +10,7 @@ namespace sphstab::analysis {
 ///   A(k) = V Σ sin(k·d) ∇W(d)            B(k) = V Σ (1 − cos k·d) ∇∇W(d)
 ///   β_sum(k) = V Σ (1 − cos k·d) W(d)    f(k) = V Σ (1 − cos k·d) ∇(φ ∇W),  φ = (W(d)/W(Δp))ⁿ
 /// 1 − cos is taken as 2 sin² of the half angle, so that nothing cancels for long waves. f is zero where W(Δp) = 0.
+/// Tested in tests/analysis/test_lattice_sums.cpp.
 template <int Dim>
 struct LatticeSums {
   Vector<Dim> A;      ///< 1 / length
@@ -22,5 +23,8 @@ struct LatticeSums {
 template <int Dim>
 LatticeSums<Dim> lattice_sums(const Lattice<Dim>& lattice, const Kernel<Dim>& kernel, NeighbourRule rule,
                               const Vector<Dim>& wave_vector, double artificial_stress_exponent);
+
+extern template LatticeSums<2> lattice_sums(const Lattice<2>&, const Kernel<2>&, NeighbourRule, const Vector<2>&,
+                                            double);
 
 }  // namespace sphstab::analysis
