@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/body_operator.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCore>
+#include <cmath>
+#include <limits>
+
+#include "analysis/mode_step.hpp"
+
+namespace sphstab::analysis {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// N_a for each particle.
+template <int Dim>
+std::vector<double> normalisation(const Problem<Dim>& problem, const Body<Dim>& body) {
+  std::vector<double> N(body.position.size(), 1.0);
+  if (problem.scheme.kernel_normalisation == KernelNormalisation::none) return N;
+  for (std::size_t a = 0; a < N.size(); ++a) {
+    N[a] = body.volume[a] * problem.kernel.value(0.0);
+    for (auto p = static_cast<std::size_t>(body.pairs.first[a]); p < static_cast<std::size_t>(body.pairs.first[a + 1]); ++p)
+      N[a] += body.volume[static_cast<std::size_t>(body.pairs.neighbour[p])] *
+              problem.kernel.value(body.pairs.separation[p].norm());
+  }
+  return N;
+}
+
+/// B: the strain sums of Eq. 9, row (a Dim + i) Dim + j for ε_ij of particle a, before the division by N.
+template <int Dim>
+SparseMatrix strain_rows(const Problem<Dim>& problem, const Body<Dim>& body) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int a = 0; a < body.size(); ++a)
+    for (auto p = static_cast<std::size_t>(body.pairs.first[static_cast<std::size_t>(a)]);
+         p < static_cast<std::size_t>(body.pairs.first[static_cast<std::size_t>(a) + 1]); ++p) {
+      const int b = body.pairs.neighbour[p];
+      const Vector<Dim>& r_ab = body.pairs.separation[p];
+      const double distance = r_ab.norm();
+      const Vector<Dim> weight =
+          body.volume[static_cast<std::size_t>(b)] * problem.kernel.slope(distance) / distance * r_ab;
+      for (int i = 0; i < Dim; ++i)
+        for (int j = 0; j < Dim; ++j)
+          for (const int row : {(a * Dim + i) * Dim + j, (a * Dim + j) * Dim + i}) {
+            entries.emplace_back(row, b * Dim + i, 0.5 * weight[j]);
+            entries.emplace_back(row, a * Dim + i, -0.5 * weight[j]);
+          }
+    }
+  SparseMatrix B(body.size() * Dim * Dim, body.size() * Dim);
+  B.setFromTriplets(entries.begin(), entries.end());
+  return B;
+}
+
+/// Bᵀ (V C / N) B / ρ0 = (N V) K, symmetric.
+template <int Dim>
+Eigen::MatrixXd weighted_operator(const Problem<Dim>& problem, const Body<Dim>& body, const std::vector<double>& N) {
+  if (problem.scheme.momentum_density == MomentumDensity::equation_of_state && !problem.displacement_gradient.isZero(0.0))
+    throw InvalidInput(
+        "density_in_momentum: equation-of-state with a displacement_gradient is for infinite lattices, bodies take frozen");
+  const LameConstants lame = problem.material.lame(problem.plane);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int a = 0; a < body.size(); ++a) {
+    const auto index = static_cast<std::size_t>(a);
+    const double factor = body.volume[index] / (N[index] * problem.material.density());
+    for (int ij = 0; ij < Dim * Dim; ++ij) entries.emplace_back(a * Dim * Dim + ij, a * Dim * Dim + ij, factor * 2.0 * lame.shear_modulus);
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j)
+        entries.emplace_back((a * Dim + i) * Dim + i, (a * Dim + j) * Dim + j, factor * lame.lambda);
+  }
+  const SparseMatrix B = strain_rows(problem, body);
+  SparseMatrix C(B.rows(), B.rows());
+  C.setFromTriplets(entries.begin(), entries.end());
+  return Eigen::MatrixXd(SparseMatrix(B.transpose() * SparseMatrix(C * B)));
+}
+
+/// N V of the particle of each degree of freedom.
+template <int Dim>
+Eigen::VectorXd weights(const Body<Dim>& body, const std::vector<double>& N) {
+  Eigen::VectorXd NV(body.size() * Dim);
+  for (int a = 0; a < body.size(); ++a)
+    NV.segment<Dim>(a * Dim).setConstant(N[static_cast<std::size_t>(a)] * body.volume[static_cast<std::size_t>(a)]);
+  return NV;
+}
+
+}  // namespace
+
+template <int Dim>
+Eigen::MatrixXd dense_operator(const Problem<Dim>& problem, const Body<Dim>& body) {
+  const auto N = normalisation(problem, body);
+  return weights(body, N).cwiseInverse().asDiagonal() * weighted_operator(problem, body, N);
+}
+
+template <int Dim>
+BodyLimit dense_body_limit(const Problem<Dim>& problem, const Body<Dim>& body) {
+  const auto N = normalisation(problem, body);
+  const Eigen::VectorXd scale = weights(body, N).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd symmetric = scale.asDiagonal() * weighted_operator(problem, body, N) * scale.asDiagonal();
+  const Eigen::VectorXd omega_squared = symmetric.selfadjointView<Eigen::Lower>().eigenvalues();
+
+  const double largest = omega_squared[omega_squared.size() - 1];
+  const double error = static_cast<double>(symmetric.rows()) * std::numeric_limits<double>::epsilon();
+  const auto limit = [&](double relative) {
+    return ModeStep(problem.integrator, problem.scheme.damping, largest * (1.0 + relative)).limit();
+  };
+  const auto critical = limit(0.0);
+  if (!critical) throw InvalidInput("patch: no particle of this body feels a force");
+  BodyLimit result{*critical, {*limit(error), *limit(-error)}, std::sqrt(largest), {}};
+  for (const double value : omega_squared) result.omega.push_back(std::sqrt(std::max(0.0, value)));
+  return result;
+}
+
+template Eigen::MatrixXd dense_operator(const Problem<2>&, const Body<2>&);
+template BodyLimit dense_body_limit(const Problem<2>&, const Body<2>&);
+
+}  // namespace sphstab::analysis

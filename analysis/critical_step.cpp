@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/critical_step.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analysis/acoustic_form.hpp"
+#include "analysis/gradient_symbol.hpp"
+#include "analysis/mode_step.hpp"
+#include "analysis/zone_maximum.hpp"
+#include "analysis/zone_zeros.hpp"
+
+namespace sphstab::analysis {
+namespace {
+
+/// The roundings of the factors between ω² and Δt.
+constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
+
+/// An extreme ω² over a set of modes, within [lower, upper].
+template <int Dim>
+struct ExtremeMode {
+  Vector<Dim> wave_vector;
+  Branch branch;
+  double omega_squared;
+  double lower;
+  double upper;
+};
+
+/// `lowest` is a mode without restoring force unless one is unstable.
+template <int Dim>
+struct FrequencyRange {
+  ExtremeMode<Dim> lowest;
+  ExtremeMode<Dim> highest;
+};
+
+template <int Dim>
+ExtremeMode<Dim> mode_at_rest() {
+  return {Vector<Dim>::Zero(), Branch::longitudinal, 0.0, 0.0, 0.0};
+}
+
+template <int Dim>
+FrequencyRange<Dim> range_over_zone(const Problem<Dim>& problem) {
+  const GradientSymbol<Dim> symbol(problem);
+  const AcousticForm<Dim> form(problem, symbol.consistency());
+  const Tensor<Dim> Q = form.longitudinal();
+  const Vector<Dim> q = Q.template selfadjointView<Eigen::Lower>().eigenvalues();
+
+  FrequencyRange<Dim> range{mode_at_rest<Dim>(), mode_at_rest<Dim>()};
+  const auto raise = [&](Branch branch, const Tensor<Dim>& of_branch) {
+    const auto found = zone_maximum(symbol.series(), of_branch);
+    auto& highest = range.highest;
+    highest.lower = std::max(highest.lower, found.lower);
+    highest.upper = std::max(highest.upper, found.upper);
+    if (found.value <= highest.omega_squared) return;
+    highest.omega_squared = found.value;
+    highest.branch = branch;
+    highest.wave_vector = symbol.wave_vector(found.phases);
+  };
+  if (q.maxCoeff() >= form.shear) raise(Branch::longitudinal, Q);
+  if (Dim > 1 && q.minCoeff() < form.shear) raise(Branch::transverse, form.shear * Tensor<Dim>::Identity());
+  if (q.minCoeff() < 0.0)
+    if (const auto found = zone_maximum<Dim>(symbol.series(), -Q); found.lower > 0.0)
+      range.lowest = {symbol.wave_vector(found.phases), Branch::longitudinal, -found.value, -found.upper, -found.lower};
+  return range;
+}
+
+template <int Dim>
+FrequencyRange<Dim> range_over(const Problem<Dim>& problem, const std::vector<Vector<Dim>>& wave_vectors) {
+  const GradientSymbol<Dim> symbol(problem);
+  const AcousticForm<Dim> form(problem, symbol.consistency());
+  FrequencyRange<Dim> range{mode_at_rest<Dim>(), mode_at_rest<Dim>()};
+  range.highest.wave_vector = wave_vectors.front();
+  for (const auto& k : wave_vectors) {
+    const Vector<Dim> D = symbol.cleaned(k);
+    if (D.isZero(0.0)) continue;
+    const double relative_error = symbol.series().rounding() / D.norm();
+    const auto visit = [&](Branch branch, double omega_squared) {
+      const double width = std::abs(omega_squared) * relative_error * (2.0 + relative_error);
+      const ExtremeMode<Dim> mode{k, branch, omega_squared, omega_squared - width, omega_squared + width};
+      if (omega_squared > range.highest.omega_squared) range.highest = mode;
+      if (omega_squared < range.lowest.omega_squared) range.lowest = mode;
+    };
+    visit(Branch::longitudinal, form.longitudinal(D));
+    if (Dim > 1) visit(Branch::transverse, form.transverse(D));
+  }
+  return range;
+}
+
+template <int Dim>
+ModeStep step_of(const Problem<Dim>& problem, double omega_squared) {
+  return {problem.integrator, problem.scheme.damping, omega_squared};
+}
+
+template <int Dim>
+StepLimit<Dim> limit_of(const Problem<Dim>& problem, const FrequencyRange<Dim>& range) {
+  const auto& [lowest, highest] = range;
+  if (lowest.omega_squared < 0.0) {
+    const double rate = step_of(problem, lowest.omega_squared).continuous_growth_rate();
+    return NeverStable<Dim>{rate, {lowest.wave_vector, lowest.branch, std::sqrt(-lowest.omega_squared)}};
+  }
+  const auto limit = step_of(problem, highest.omega_squared).limit();
+  if (!limit) return UnconditionallyStable{};
+  const Bracket bracket{*step_of(problem, highest.upper).limit() * (1.0 - few_roundings),
+                        *step_of(problem, highest.lower).limit() * (1.0 + few_roundings)};
+  return ConditionallyStable<Dim>{
+      *limit, bracket, {highest.wave_vector, highest.branch, std::sqrt(highest.omega_squared)}};
+}
+
+/// Every index from 0 to counts − 1 on each axis.
+template <int Dim>
+std::vector<LatticeIndex<Dim>> indices_below(std::string_view key, const LatticeIndex<Dim>& counts) {
+  if (counts.minCoeff() < 1)
+    throw InvalidInput(
+        fmt::format("{}: {} has a count below 1", key, fmt::join(counts.data(), counts.data() + Dim, ",")));
+  std::vector<LatticeIndex<Dim>> indices;
+  for (int flat = 0; flat < counts.prod(); ++flat) {
+    LatticeIndex<Dim> n;
+    for (int axis = 0, rest = flat; axis < Dim; rest /= counts[axis], ++axis) n[axis] = rest % counts[axis];
+    indices.push_back(n);
+  }
+  return indices;
+}
+
+/// Components within this of each other, relative to |b|, count as equal when equivalent wave vectors are ordered.
+constexpr double same_component = 1e-9;
+
+/// The representative of a class of equivalent wave vectors: the shortest, then the lexicographically largest.
+template <int Dim>
+Vector<Dim> in_first_zone(const Tensor<Dim>& reciprocal, const Vector<Dim>& wave_vector) {
+  const double tolerance = same_component * reciprocal.norm();
+  // Shifts by up to two reciprocal vectors reach the Wigner-Seitz cell from [−½, ½) b_i of any lattice kind.
+  const LatticeIndex<Dim> shifts = LatticeIndex<Dim>::Constant(5);
+  Vector<Dim> best = wave_vector;
+  for (const auto& n : indices_below<Dim>("", shifts)) {
+    const Vector<Dim> k = wave_vector + reciprocal * (n.template cast<double>().array() - 2.0).matrix();
+    double preference = best.norm() - k.norm();
+    for (int axis = 0; axis < Dim && std::abs(preference) <= tolerance; ++axis) preference = k[axis] - best[axis];
+    if (preference > tolerance) best = k;
+  }
+  return best;
+}
+
+}  // namespace
+
+template <int Dim>
+StepLimit<Dim> bulk_limit(const Problem<Dim>& problem) {
+  return limit_of(problem, range_over_zone(problem));
+}
+
+template <int Dim>
+StepLimit<Dim> mode_limit(const Problem<Dim>& problem, const Vector<Dim>& wave_vector) {
+  return limit_of(problem, range_over<Dim>(problem, {wave_vector}));
+}
+
+template <int Dim>
+StepLimit<Dim> paper_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& box) {
+  std::vector<Vector<Dim>> modes;
+  for (const auto& n : indices_below<Dim>("box", box))
+    modes.push_back(std::numbers::pi / problem.lattice.spacing() *
+                    ((n.array() + 1).template cast<double>() / box.array().template cast<double>()).matrix());
+  return limit_of(problem, range_over(problem, modes));
+}
+
+template <int Dim>
+StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
+  std::vector<Vector<Dim>> modes;
+  for (const auto& n : indices_below<Dim>("patch", cells))
+    modes.push_back(problem.lattice.reciprocal_vectors() *
+                    (n.array().template cast<double>() / cells.array().template cast<double>()).matrix());
+  return limit_of(problem, range_over(problem, modes));
+}
+
+template <int Dim>
+double symbol_maximum(const Problem<Dim>& problem) {
+  return std::sqrt(zone_maximum<Dim>(GradientSymbol<Dim>(problem).series(), Tensor<Dim>::Identity()).value);
+}
+
+// At a fixed Δt the trace of a mode is linear in ω² and its determinant does not depend on it, so that the spectral radius
+// is largest at one of the two ends of the range of ω².
+
+template <int Dim>
+double zone_spectral_radius(const Problem<Dim>& problem, double time_step) {
+  const auto [lowest, highest] = range_over_zone(problem);
+  return std::max(step_of(problem, lowest.omega_squared).spectral_radius(time_step),
+                  step_of(problem, highest.omega_squared).spectral_radius(time_step));
+}
+
+template <int Dim>
+std::optional<double> step_for_growth(const Problem<Dim>& problem, double growth_per_step) {
+  if (!(growth_per_step >= 0.0))
+    throw InvalidInput(fmt::format("tolerated_growth_per_step: {} is negative", growth_per_step));
+  const auto [lowest, highest] = range_over_zone(problem);
+  if (lowest.omega_squared < 0.0 && growth_per_step == 0.0) return std::nullopt;
+  const auto of_lowest = step_of(problem, lowest.omega_squared).limit(growth_per_step);
+  const auto of_highest = step_of(problem, highest.omega_squared).limit(growth_per_step);
+  if (of_lowest && of_highest) return std::min(*of_lowest, *of_highest);
+  return of_lowest ? of_lowest : of_highest;
+}
+
+template <int Dim>
+std::optional<double> published_bound(const Problem<Dim>& problem) {
+  const double slope = std::abs(problem.kernel.slope(problem.lattice.spacing()));
+  if (problem.lattice.kind() != LatticeKind::square || slope == 0.0) return std::nullopt;
+  const LameConstants lame = problem.material.lame(problem.plane);
+  const double zhang_G = 2.0 * lame.shear_modulus, rho = problem.material.density();
+  return std::sqrt(rho / (2.0 * lame.lambda + 3.0 * zhang_G)) / (problem.lattice.cell_volume() * slope);
+}
+
+template <int Dim>
+ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem) {
+  const GradientSymbol<Dim> symbol(problem);
+  const auto zeros = zone_zeros(symbol.series());
+  ZeroEnergyModes<Dim> modes{{}, zeros.complete};
+  for (const auto& phases : zeros.phases)
+    modes.wave_vectors.push_back(in_first_zone<Dim>(problem.lattice.reciprocal_vectors(), symbol.wave_vector(phases)));
+  const double tolerance = same_component * problem.lattice.reciprocal_vectors().norm();
+  std::sort(modes.wave_vectors.begin(), modes.wave_vectors.end(), [&](const Vector<Dim>& left, const Vector<Dim>& right) {
+    double difference = left.norm() - right.norm();
+    for (int axis = 0; axis < Dim && std::abs(difference) <= tolerance; ++axis) difference = left[axis] - right[axis];
+    return difference < 0.0;
+  });
+  return modes;
+}
+
+template StepLimit<2> bulk_limit(const Problem<2>&);
+template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
+template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
+template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
+template double symbol_maximum(const Problem<2>&);
+template double zone_spectral_radius(const Problem<2>&, double);
+template std::optional<double> step_for_growth(const Problem<2>&, double);
+template std::optional<double> published_bound(const Problem<2>&);
+template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
+
+}  // namespace sphstab::analysis

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "model/problem.hpp"
+
+namespace sphstab::analysis {
+
+/// Δt_c lies in [low, high]; rounding errors of the evaluation are included.
+struct Bracket {
+  double low;
+  double high;
+};
+
+enum class Branch { longitudinal, transverse };
+
+template <int Dim>
+struct CriticalMode {
+  Vector<Dim> wave_vector;
+  Branch branch;
+  double omega;  ///< angular frequency in continuous time, undamped; of an unstable mode its growth rate
+};
+
+/// Stable up to `critical_time_step`, the largest Δt such that no smaller one grows. The formulas are those of ModeStep at
+/// the largest ω². Tested in tests/analysis/test_critical_step.cpp.
+template <int Dim>
+struct ConditionallyStable {
+  double critical_time_step;
+  Bracket bracket;
+  CriticalMode<Dim> mode;
+};
+
+/// No mode has a restoring force; nothing limits Δt.
+struct UnconditionallyStable {};
+
+/// Grows in continuous time, so at every Δt.
+template <int Dim>
+struct NeverStable {
+  double growth_rate;  ///< 1 / time
+  CriticalMode<Dim> mode;
+};
+
+template <int Dim>
+using StepLimit = std::variant<ConditionallyStable<Dim>, UnconditionallyStable, NeverStable<Dim>>;
+
+/// The exact limit of the infinite lattice: the maximum over the whole Brillouin zone, with certified bracket.
+template <int Dim>
+StepLimit<Dim> bulk_limit(const Problem<Dim>& problem);
+
+/// The limit of one mode.
+template <int Dim>
+StepLimit<Dim> mode_limit(const Problem<Dim>& problem, const Vector<Dim>& wave_vector);
+
+/// The limit over Zhang's modes (Eq. 13): k = (mπ/(MΔp), lπ/(LΔp)), m = 1…M, l = 1…L. Throws InvalidInput (`box`) unless
+/// every count is at least 1; so does `patch_limit` (`patch`).
+template <int Dim>
+StepLimit<Dim> paper_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& box);
+
+/// The limit over the wave vectors that a periodic patch admits: k·(N_i a_i) = 2πn_i.
+template <int Dim>
+StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
+
+/// max |D(k)| over the zone, 1 / length (`symbol_maximum`), kernel normalisation included.
+template <int Dim>
+double symbol_maximum(const Problem<Dim>& problem);
+
+/// Largest spectral radius of E over the whole zone at this step.
+template <int Dim>
+double zone_spectral_radius(const Problem<Dim>& problem, double time_step);
+
+/// The largest Δt such that no smaller one has a spectral radius over the zone above 1 + growth_per_step. Nothing where
+/// every Δt qualifies, or none does (`never-stable`, growth_per_step = 0). Throws InvalidInput
+/// (`tolerated_growth_per_step`) if negative.
+template <int Dim>
+std::optional<double> step_for_growth(const Problem<Dim>& problem, double growth_per_step);
+
+/// Zhang's Eq. 15, Δt = ρ/|mW'(Δ)| √(ρ/(2γ+3G)): sufficient for four neighbours, printed for every kernel (errata.md Z4,
+/// Z5). Nothing where W'(Δp) = 0 or the lattice is not square.
+template <int Dim>
+std::optional<double> published_bound(const Problem<Dim>& problem);
+
+/// The zero-energy modes: every k of the first Brillouin zone with D(k) = 0, Γ excluded, each class of equivalent k once
+/// (on the boundary of the zone the one with the largest first component, then second), shortest first.
+template <int Dim>
+struct ZeroEnergyModes {
+  std::vector<Vector<Dim>> wave_vectors;
+  /// False where D is below rounding on whole regions (very wide, smooth kernels), so that no list can be complete.
+  bool complete;
+};
+
+template <int Dim>
+ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem);
+
+extern template StepLimit<2> bulk_limit(const Problem<2>&);
+extern template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
+extern template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
+extern template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
+extern template double symbol_maximum(const Problem<2>&);
+extern template double zone_spectral_radius(const Problem<2>&, double);
+extern template std::optional<double> step_for_growth(const Problem<2>&, double);
+extern template std::optional<double> published_bound(const Problem<2>&);
+extern template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
+
+}  // namespace sphstab::analysis

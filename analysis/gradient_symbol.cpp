@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/gradient_symbol.hpp"
+
+#include <limits>
+#include <numbers>
+
+namespace sphstab::analysis {
+namespace {
+
+/// One of each pair n, −n: the last component that is not zero is positive.
+template <int Dim>
+bool in_upper_half(const LatticeIndex<Dim>& n) {
+  int axis = Dim - 1;
+  while (axis > 0 && n[axis] == 0) --axis;
+  return n[axis] > 0;
+}
+
+/// V Σ_j W_ij over the neighbours and the particle itself, or 1 without normalisation.
+template <int Dim>
+double normalisation_sum(const Problem<Dim>& problem, const std::vector<LatticeNeighbour<Dim>>& neighbours) {
+  if (problem.scheme.kernel_normalisation == KernelNormalisation::none) return 1.0;
+  double sum = problem.kernel.value(0.0);
+  for (const auto& neighbour : neighbours) sum += problem.kernel.value(neighbour.distance);
+  return problem.lattice.cell_volume() * sum;
+}
+
+template <int Dim>
+std::vector<SineTerm<Dim>> symbol_terms(const Problem<Dim>& problem) {
+  const auto neighbours = lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule);
+  const double factor = -2.0 * problem.lattice.cell_volume() / normalisation_sum(problem, neighbours);
+  std::vector<SineTerm<Dim>> terms;
+  for (const auto& d : neighbours)
+    if (in_upper_half<Dim>(d.index))
+      terms.push_back({d.index, factor * problem.kernel.slope(d.distance) / d.distance * d.position});
+  return terms;
+}
+
+}  // namespace
+
+template <int Dim>
+GradientSymbol<Dim>::GradientSymbol(const Problem<Dim>& problem)
+    : primitive_(problem.lattice.primitive_vectors()),
+      wave_vectors_of_phases_(problem.lattice.reciprocal_vectors() / (2.0 * std::numbers::pi)),
+      consistency_(Tensor<Dim>::Zero()),
+      weight_sum_(0.0),
+      series_(symbol_terms(problem)) {
+  for (const auto& term : series_.terms()) {
+    consistency_ += problem.lattice.site(term.frequency) * term.coefficient.transpose();
+    weight_sum_ += term.coefficient.norm();
+  }
+}
+
+template <int Dim>
+Vector<Dim> GradientSymbol<Dim>::cleaned(const Vector<Dim>& wave_vector) const {
+  const Vector<Dim> theta = phases(wave_vector);
+  const Vector<Dim> value = series_(theta);
+  // Phases carry Dim + 1 roundings each (of k and of k·a_i).
+  const double of_phases = (Dim + 1) * std::numeric_limits<double>::epsilon() * series_.type() *
+                           theta.template lpNorm<Eigen::Infinity>() * weight_sum_;
+  return value.norm() > series_.rounding() + of_phases ? value : Vector<Dim>::Zero();
+}
+
+template class GradientSymbol<2>;
+
+}  // namespace sphstab::analysis

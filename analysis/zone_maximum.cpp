@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/zone_maximum.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "analysis/zone_grid.hpp"
+
+namespace sphstab::analysis {
+namespace {
+
+/// σ w of the coarse grid: a finer one costs table entries, a coarser one derivatives.
+constexpr double grid_resolution = 0.25;
+/// Boxes that cannot hold more than this above the best value, relative, are done.
+constexpr double target_enclosure = 1e-13;
+/// Work budget in terms of the series evaluated with derivatives, some 10 ns each.
+constexpr int term_budget = 400000;
+/// Steps of the Newton iteration are cut to this over R.
+constexpr double longest_step = 0.3;
+constexpr int newton_steps = 30;
+/// Where the climbs from long waves begin to be indistinguishable from Γ.
+constexpr double shortest_start = 1e-3;
+
+/// q with gradient and curvatures, the derivatives along the principal axes of its Hessian.
+template <int Dim>
+struct Expansion {
+  double value;
+  Tensor<Dim> axes;  ///< columns
+  Vector<Dim> slope;
+  Vector<Dim> curvature;  ///< ascending
+};
+
+/// Phases within `radius` of `centre` (Euclidean) where q is at most the bound that went into `upper`.
+template <int Dim>
+struct SafeBall {
+  Vector<Dim> centre;
+  double radius;
+};
+
+template <int Dim>
+struct LiveBox {
+  PhaseBox<Dim> box;
+  double bound;  ///< on the maximum, should the maximiser lie here
+};
+
+template <int Dim>
+class MaximumSearch {
+ public:
+  MaximumSearch(const SineSeries<Dim>& series, const Tensor<Dim>& form) : series_(series), form_(form) {
+    const auto eigenvalues = form.template selfadjointView<Eigen::Lower>().eigenvalues();
+    form_norm_ = eigenvalues.cwiseAbs().maxCoeff();
+    if (eigenvalues.minCoeff() >= 0.0) return;
+    const double largest_square = MaximumSearch(series, Tensor<Dim>::Identity()).run().upper;
+    floor_ = eigenvalues.minCoeff() * largest_square;
+    largest_image_ = form_norm_ * std::sqrt(largest_square);
+  }
+
+  ZoneMaximum<Dim> run() {
+    std::vector<LiveBox<Dim>> live = coarse_survivors();
+    while (!live.empty()) {
+      std::vector<LiveBox<Dim>> next;
+      for (const auto& box : live) examine(box, next);
+      live = std::move(next);
+    }
+    return {best_phases_, best_, best_ - margin_, std::max(upper_, best_ + margin_), evaluations_};
+  }
+
+ private:
+  /// The bound on q at the maximiser if it is within `width` (max norm) of a point of value q.
+  double riesz_bound(double q, double width) const {
+    return floor_ + (q - floor_) / std::pow(std::cos(series_.type() * width), 2);
+  }
+
+  std::vector<LiveBox<Dim>> coarse_survivors() {
+    const ZoneGrid<Dim> grid(series_, form_, grid_resolution);
+    const auto& q = grid.values();
+    const auto peak = std::max_element(q.begin(), q.end());
+    const double ceiling = riesz_bound(*peak, grid.half_width());
+    // |Q D| at the maximiser bounds what a rounding error of D does to q.
+    if (floor_ == 0.0) largest_image_ = std::sqrt(form_norm_ * ceiling);
+    margin_ = (2.0 * largest_image_ + form_norm_ * series_.rounding()) * series_.rounding();
+    third_derivative_ = 4.0 * std::pow(series_.euclidean_type(), 3) * (ceiling - floor_);
+
+    best_ = *peak;
+    best_phases_ = grid.box(static_cast<std::size_t>(peak - q.begin())).centre;
+    climb(best_phases_);
+    if (floor_ < 0.0) climb_from_long_waves();
+    std::vector<LiveBox<Dim>> live;
+    for (std::size_t i = 0; i < q.size(); ++i)
+      if (const double bound = riesz_bound(q[i] + margin_, grid.half_width()); bound >= best_)
+        live.push_back({grid.box(i), bound});
+    return live;
+  }
+
+  /// A slightly indefinite Q has narrow cones of positive q that the grid can miss, but never along J(0)⁻¹ of its best
+  /// direction in the limit of long waves.
+  void climb_from_long_waves() {
+    const Tensor<Dim> jacobian = series_.jet(Vector<Dim>::Zero()).jacobian;
+    if (jacobian.determinant() == 0.0) return;
+    const Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver(form_);
+    const Vector<Dim> direction = jacobian.inverse() * solver.eigenvectors().col(Dim - 1);
+    for (double length = 1.0 / series_.type(); length > shortest_start; length *= 0.5) climb(length * direction.normalized());
+  }
+
+  Expansion<Dim> expand(const Vector<Dim>& phases) {
+    ++evaluations_;
+    const SineJet<Dim> jet = series_.jet(phases);
+    const Vector<Dim> QD = form_ * jet.value;
+    Tensor<Dim> half_hessian = jet.jacobian.transpose() * form_ * jet.jacobian;
+    for (int i = 0; i < Dim; ++i) half_hessian += QD[i] * jet.hessian[static_cast<std::size_t>(i)];
+    Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver;
+    solver.computeDirect(half_hessian);
+    return {QD.dot(jet.value), solver.eigenvectors(), 2.0 * solver.eigenvectors().transpose() * (jet.jacobian.transpose() * QD),
+            2.0 * solver.eigenvalues()};
+  }
+
+  /// Newton ascent in the principal axes of the Hessian. Where it ends on a strict maximum, its safe ball is kept: within
+  /// radius ρ = 3μ/2T (T the bound on third derivatives, μ the least curvature) q ≤ q* + |g| r − (μ/2 − Tρ/6) r²
+  /// = q* + |g| r − μ r²/4 ≤ q* + |g|²/μ.
+  void climb(Vector<Dim> phases) {
+    const double trust = longest_step / series_.euclidean_type();
+    Expansion<Dim> here = expand(phases);
+    for (int step = 0; step < newton_steps; ++step) {
+      Vector<Dim> move;
+      for (int i = 0; i < Dim; ++i)
+        move[i] = here.curvature[i] < 0.0 ? -here.slope[i] / here.curvature[i] : std::copysign(trust, here.slope[i]);
+      if (move.norm() > trust) move *= trust / move.norm();
+      const Vector<Dim> there = phases + here.axes * move;
+      const Expansion<Dim> ahead = expand(there);
+      if (!(ahead.value > here.value)) break;
+      phases = there;
+      here = ahead;
+    }
+    if (here.value > best_) best_ = here.value, best_phases_ = phases;
+    const double mu = -here.curvature.maxCoeff();
+    if (mu <= 0.0) return;
+    balls_.push_back({phases, 1.5 * mu / third_derivative_});
+    upper_ = std::max(upper_, here.value + margin_ + here.slope.squaredNorm() / mu);
+  }
+
+  bool is_safe(const PhaseBox<Dim>& box) const {
+    return std::any_of(balls_.begin(), balls_.end(), [&](const SafeBall<Dim>& ball) {
+      const double room = ball.radius - box.radius();
+      return room > 0.0 && (wrapped<Dim>(box.centre - ball.centre).norm() < room ||
+                            wrapped<Dim>(box.centre + ball.centre).norm() < room);
+    });
+  }
+
+  /// max over the box of the second-order expansion, plus the remainder T r³/6 and the rounding of the three terms
+  /// (errors ≤ margin, 2R margin, 4R² margin over distances ≤ 1/2R: 2.5 margins).
+  double second_order_bound(const Expansion<Dim>& q, const PhaseBox<Dim>& box) const {
+    double bound = q.value + third_derivative_ * std::pow(box.radius(), 3) / 6.0 + 2.5 * margin_;
+    for (int i = 0; i < Dim; ++i) {
+      const double extent = box.half_width * q.axes.col(i).template lpNorm<1>();
+      const double slope = std::abs(q.slope[i]);
+      bound += slope < -q.curvature[i] * extent ? -0.5 * slope * slope / q.curvature[i]
+                                                : extent * (slope + 0.5 * q.curvature[i] * extent);
+    }
+    return bound;
+  }
+
+  void examine(const LiveBox<Dim>& live, std::vector<LiveBox<Dim>>& next) {
+    if (is_safe(live.box)) return;
+    if (evaluations_ * static_cast<int>(series_.terms().size()) > term_budget) {
+      upper_ = std::max(upper_, live.bound);
+      return;
+    }
+    const Expansion<Dim> q = expand(live.box.centre);
+    const double riesz = riesz_bound(q.value + margin_, live.box.half_width);
+    const double bound = std::min({live.bound, riesz, second_order_bound(q, live.box)});
+    if (bound <= best_ * (1.0 + target_enclosure)) {
+      upper_ = std::max(upper_, bound);
+      return;
+    }
+    // A curvature that would make a ball as large as the box promises a maximum that deserves one.
+    const bool near_strict_maximum = -1.5 * q.curvature.maxCoeff() > third_derivative_ * live.box.radius();
+    if (q.value > best_ + margin_ || near_strict_maximum) {
+      climb(live.box.centre);
+      if (is_safe(live.box)) return;
+    }
+    for (const auto& child : live.box.children()) next.push_back({child, bound});
+  }
+
+  const SineSeries<Dim>& series_;
+  Tensor<Dim> form_;
+  double form_norm_ = 0.0;
+  double floor_ = 0.0;          ///< m ≤ q
+  double largest_image_ = 0.0;  ///< bound on |Q D| where it matters
+  double margin_ = 0.0;         ///< bound on the rounding error of q
+  double third_derivative_ = 0.0;
+  double best_ = 0.0;
+  double upper_ = 0.0;
+  Vector<Dim> best_phases_ = Vector<Dim>::Zero();
+  std::vector<SafeBall<Dim>> balls_;
+  int evaluations_ = 0;
+};
+
+}  // namespace
+
+template <int Dim>
+ZoneMaximum<Dim> zone_maximum(const SineSeries<Dim>& series, const Tensor<Dim>& form) {
+  return MaximumSearch<Dim>(series, form).run();
+}
+
+template ZoneMaximum<2> zone_maximum(const SineSeries<2>&, const Tensor<2>&);
+
+}  // namespace sphstab::analysis

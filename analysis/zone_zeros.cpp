@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/zone_zeros.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "analysis/zone_grid.hpp"
+#include "analysis/zone_maximum.hpp"
+
+namespace sphstab::analysis {
+namespace {
+
+/// σ w of the coarse grid.
+constexpr double grid_resolution = 0.1;
+/// Work budget in terms of the series evaluated with derivatives, some 10 ns each.
+constexpr long term_budget = 20'000'000;
+constexpr int newton_steps = 12;
+/// Zeros closer than this over R are one: Newton ends at some 1e-14, and certain zeros are far wider apart.
+constexpr double same_zero = 1e-7;
+
+template <int Dim>
+class ZeroSearch {
+ public:
+  explicit ZeroSearch(const SineSeries<Dim>& series)
+      : series_(series), largest_(std::sqrt(zone_maximum<Dim>(series, Tensor<Dim>::Identity()).upper)) {}
+
+  ZoneZeros<Dim> run() {
+    for (unsigned corner = 0; corner < (1u << Dim); ++corner) {
+      Vector<Dim> phases;
+      for (int axis = 0; axis < Dim; ++axis) phases[axis] = corner >> axis & 1u ? -std::numbers::pi : 0.0;
+      keep(phases);
+    }
+    const ZoneGrid<Dim> grid(series_, Tensor<Dim>::Identity(), grid_resolution);
+    const double reachable = largest_ * std::sin(series_.type() * grid.half_width()) + series_.rounding();
+    std::vector<PhaseBox<Dim>> live;
+    for (std::size_t i = 0; i < grid.values().size(); ++i)
+      if (grid.values()[i] <= reachable * reachable) live.push_back(grid.box(i));
+    while (!live.empty() && complete_) {
+      std::vector<PhaseBox<Dim>> next;
+      for (const auto& box : live) examine(box, next);
+      live = std::move(next);
+    }
+    zeros_.erase(zeros_.begin());  // Γ
+    return {zeros_, complete_};
+  }
+
+ private:
+  void keep(const Vector<Dim>& phases) {
+    const auto same = [&](const Vector<Dim>& zero) {
+      return wrapped<Dim>(zero - phases).norm() < same_zero / series_.euclidean_type();
+    };
+    if (std::none_of(zeros_.begin(), zeros_.end(), same)) zeros_.push_back(wrapped<Dim>(phases));
+  }
+
+  /// Bound on |∂²f| within r of the point of the jet.
+  double curvature_bound(const SineJet<Dim>& jet, double r) const {
+    double squares = 0.0;
+    for (const auto& hessian : jet.hessian) squares += hessian.squaredNorm();
+    return std::sqrt(squares) + std::pow(series_.euclidean_type(), 3) * largest_ * r;
+  }
+
+  /// The zero to which Newton's iteration from `start` converges without leaving the ball of radius r, if it is certain.
+  std::optional<Vector<Dim>> newton(const Vector<Dim>& start, double r) const {
+    Vector<Dim> phases = start;
+    double previous = r;
+    for (int step = 0; step < newton_steps; ++step) {
+      const SineJet<Dim> jet = series_.jet(phases);
+      const Tensor<Dim> inverse = jet.jacobian.inverse();
+      const Vector<Dim> move = -inverse * jet.value;
+      phases += move;
+      if (!((phases - start).norm() < r)) return std::nullopt;
+      if (move.norm() < 0.5 * previous) {
+        previous = move.norm();
+        continue;
+      }
+      const double least_slope = 1.0 / inverse.norm();
+      const bool certain = least_slope * least_slope > 4.0 * curvature_bound(jet, r) * series_.rounding();
+      return certain ? std::optional<Vector<Dim>>(phases) : std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  void examine(const PhaseBox<Dim>& box, std::vector<PhaseBox<Dim>>& next) {
+    if ((evaluated_terms_ += static_cast<long>(series_.terms().size())) > term_budget) {
+      complete_ = false;
+      return;
+    }
+    const SineJet<Dim> jet = series_.jet(box.centre);
+    const double rho = box.radius(), r = 2.0 * rho, delta = series_.rounding();
+    const double K = curvature_bound(jet, r), value = jet.value.norm(), slope = jet.jacobian.norm();
+    if (value > slope * rho + 0.5 * K * rho * rho + delta) return;
+    const Tensor<Dim> inverse = jet.jacobian.inverse();
+    const double inverse_norm = inverse.norm();
+    if ((inverse * jet.value).norm() > rho + inverse_norm * (0.5 * K * rho * rho + delta)) return;
+    if (inverse_norm * K * r < 1.0)
+      if (const auto zero = newton(box.centre, r)) {
+        keep(*zero);
+        keep(-*zero);
+        return;
+      }
+    if (value <= delta && slope * rho <= delta) {
+      complete_ = false;
+      return;
+    }
+    for (const auto& child : box.children()) next.push_back(child);
+  }
+
+  const SineSeries<Dim>& series_;
+  double largest_;
+  std::vector<Vector<Dim>> zeros_;
+  bool complete_ = true;
+  long evaluated_terms_ = 0;
+};
+
+}  // namespace
+
+template <int Dim>
+ZoneZeros<Dim> zone_zeros(const SineSeries<Dim>& series) {
+  return ZeroSearch<Dim>(series).run();
+}
+
+template ZoneZeros<2> zone_zeros(const SineSeries<2>&);
+
+}  // namespace sphstab::analysis
