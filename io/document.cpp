@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "io/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace sphstab::io {
+namespace {
+
+using ErrorHandler = nlohmann::detail::error_handler_t;
+
+std::string to_text(const Document& value) {
+  if (value.is_null() || (value.is_number_float() && !std::isfinite(value.get<double>()))) return {};
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array() || std::any_of(value.begin(), value.end(), [](const auto& v) { return v.is_structured(); }))
+    return to_json_line(value);
+  std::string text;
+  for (const auto& element : value) {
+    if (!text.empty()) text += ' ';
+    text += to_text(element);
+  }
+  return text;
+}
+
+using FlatRow = std::vector<std::pair<std::string, Document>>;
+
+void flatten(const Document& object, const std::string& prefix, FlatRow& row) {
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_object())
+      flatten(value, prefix + key + ".", row);
+    else
+      row.emplace_back(prefix + key, value);
+  }
+}
+
+std::vector<FlatRow> flat_rows(const Document& rows) {
+  std::vector<FlatRow> flat(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) flatten(rows[i], "", flat[i]);
+  return flat;
+}
+
+/// Every key of the rows, in the order of first appearance.
+std::vector<Column> all_columns(const std::vector<FlatRow>& rows) {
+  std::vector<Column> columns;
+  for (const auto& row : rows)
+    for (const auto& [key, value] : row)
+      if (std::none_of(columns.begin(), columns.end(), [&name = key](const Column& c) { return c.key == name; }))
+        columns.push_back({key, key});
+  return columns;
+}
+
+std::string cell(const FlatRow& row, const Column& column) {
+  const auto found = std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == column.key; });
+  if (found == row.end()) return {};
+  const Document& value = found->second;
+  if (!value.is_number() || column.number_format == "{}") return to_text(value);
+  return fmt::format(fmt::runtime(column.number_format), value.get<double>());
+}
+
+Table select(const std::vector<FlatRow>& rows, const std::vector<Column>& columns) {
+  Table table;
+  for (const auto& column : columns) table.header.push_back(column.header);
+  for (const auto& row : rows) {
+    auto& cells = table.rows.emplace_back();
+    for (const auto& column : columns) cells.push_back(cell(row, column));
+  }
+  return table;
+}
+
+Table case_per_row(const Document& document) {
+  const auto rows = flat_rows(document.is_array() ? document : Document::array({document}));
+  return select(rows, all_columns(rows));
+}
+
+Table key_per_row(const Document& document) {
+  if (document.is_array()) return case_per_row(document);
+  FlatRow row;
+  flatten(document, "", row);
+  Table table{{"key", "value"}, {}};
+  for (const auto& [key, value] : row) table.rows.push_back({key, to_text(value)});
+  return table;
+}
+
+bool is_number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+/// Whether a column holds numbers and empty cells only, and at least one number.
+bool is_numeric(const Table& table, std::size_t column) {
+  bool any = false;
+  for (const auto& row : table.rows) {
+    if (row[column].empty()) continue;
+    if (!is_number(row[column])) return false;
+    any = true;
+  }
+  return any;
+}
+
+/// One line a row: `begin`, the cells through `escape` with `separator` between them, `end`.
+template <class Escape>
+void append_row(std::string& out, const std::vector<std::string>& cells, std::string_view begin,
+                std::string_view separator, std::string_view end, const Escape& escape) {
+  out += begin;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i > 0) out += separator;
+    out += escape(cells[i]);
+  }
+  out += end;
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string markdown_cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '\n' || c == '\r') {
+      escaped += ' ';
+      continue;
+    }
+    if (std::string_view("\\|*<`").find(c) != std::string_view::npos) escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+std::string latex_character(char c) {
+  switch (c) {
+    case '\\':
+      return "\\textbackslash{}";
+    case '~':
+      return "\\textasciitilde{}";
+    case '^':
+      return "\\textasciicircum{}";
+    case '<':
+      return "\\textless{}";
+    case '>':
+      return "\\textgreater{}";
+    case '|':
+      return "\\textbar{}";
+    case '\n':
+    case '\r':
+      return " ";
+    case '&':
+    case '%':
+    case '$':
+    case '#':
+    case '_':
+    case '{':
+    case '}':
+      return {'\\', c};
+    default:
+      return {c};
+  }
+}
+
+std::string latex_cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped += latex_character(c);
+  return escaped;
+}
+
+}  // namespace
+
+Table select(const Document& rows, const std::vector<Column>& columns) { return select(flat_rows(rows), columns); }
+
+std::string write(const Document& document, Format format) {
+  switch (format) {
+    case Format::json:
+      return document.dump(2, ' ', false, ErrorHandler::replace) + "\n";
+    case Format::csv:
+      return to_csv(case_per_row(document));
+    case Format::markdown:
+      return to_markdown(key_per_row(document));
+    case Format::latex:
+      return to_latex(key_per_row(document));
+  }
+  return {};
+}
+
+std::string to_json_line(const Document& document) { return document.dump(-1, ' ', false, ErrorHandler::replace); }
+
+std::string to_csv(const Table& table) {
+  std::string out;
+  append_row(out, table.header, "", ",", "\n", csv_cell);
+  for (const auto& row : table.rows) append_row(out, row, "", ",", "\n", csv_cell);
+  return out;
+}
+
+std::string to_markdown(const Table& table) {
+  std::string out;
+  append_row(out, table.header, "| ", " | ", " |\n", markdown_cell);
+  for (std::size_t column = 0; column < table.header.size(); ++column)
+    out += is_numeric(table, column) ? "|---:" : "|---";
+  out += "|\n";
+  for (const auto& row : table.rows) append_row(out, row, "| ", " | ", " |\n", markdown_cell);
+  return out;
+}
+
+std::string to_latex(const Table& table) {
+  std::string out = "\\begin{tabular}{";
+  for (std::size_t column = 0; column < table.header.size(); ++column) out += is_numeric(table, column) ? 'r' : 'l';
+  out += "}\n\\hline\n";
+  append_row(out, table.header, "", " & ", " \\\\\n", latex_cell);
+  out += "\\hline\n";
+  for (const auto& row : table.rows) append_row(out, row, "", " & ", " \\\\\n", latex_cell);
+  return out + "\\hline\n\\end{tabular}\n";
+}
+
+}  // namespace sphstab::io

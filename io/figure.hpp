@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sphstab::io {
+
+/// How a curve is drawn. Curves of one figure differ by colour, and by dash or marker as well.
+enum class CurveStyle { line, dashed, points, line_and_points };
+
+/// Points (x, y) in the order in which they are joined; a point that is not finite is a gap. A curve without a label
+/// has no line in the legend.
+struct Curve {
+  std::string label;
+  std::vector<std::pair<double, double>> points;
+  CurveStyle style = CurveStyle::line;
+};
+
+/// A labelled place on the x axis.
+struct Mark {
+  double x;
+  std::string label;
+};
+
+/// A shaded range of x behind the curves.
+struct Shade {
+  double from;
+  double to;
+  std::string label;
+};
+
+/// One diagram: curves over linear or logarithmic axes.
+struct LineFigure {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  bool x_log = false;
+  bool y_log = false;
+  std::vector<Curve> curves;
+  std::vector<Mark> x_ticks;         ///< in place of numbers, such as Γ, X, M along a path
+  std::vector<Mark> vertical_lines;  ///< labelled at their upper end
+  std::vector<Shade> shades;
+};
+
+/// The figure as an SVG drawn by gnuplot; the same figure always gives the same bytes. Text is printed as it is, not
+/// read as markup. At least one point must be finite and, on a logarithmic axis, positive.
+/// Throws InvalidInput if gnuplot is not installed.
+std::string render_svg(const LineFigure& figure);
+
+}  // namespace sphstab::io

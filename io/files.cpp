@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "io/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <system_error>
+
+#include "model/errors.hpp"
+
+namespace sphstab::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, std::string_view reason) {
+  throw InvalidInput(fmt::format("{}: {}", path.string(), reason));
+}
+
+[[noreturn]] void throw_errno() { throw std::system_error(errno, std::generic_category()); }
+
+/// Returns work(); what the system refuses it becomes an InvalidInput that names `path`.
+template <class Work>
+auto naming(const fs::path& path, const Work& work) {
+  try {
+    return work();
+  } catch (const std::system_error& error) {
+    fail(path, error.code().message());
+  }
+}
+
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+    if (value_ < 0) throw_errno();
+  }
+  ~Descriptor() { ::close(value_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return value_; }
+
+ private:
+  int value_;
+};
+
+/// Repeats a read or a write that a signal interrupted.
+template <class Transfer>
+std::size_t transferred(const Transfer& transfer) {
+  for (;;) {
+    const ssize_t count = transfer();
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno != EINTR) throw_errno();
+  }
+}
+
+/// Removes what stands at `path` when it goes, which is nothing if it was moved to its place.
+struct Discard {
+  const fs::path& path;
+  ~Discard() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+/// A name beside `path` that no other thread or process takes.
+fs::path hidden_neighbour(const fs::path& path) {
+  static std::atomic<unsigned> count = 0;
+  return path.parent_path() / fmt::format(".{}.{}.{}", path.filename().string(), ::getpid(), count++);
+}
+
+void write_to_disk(const fs::path& path, std::string_view text) {
+  const Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
+  while (!text.empty()) text.remove_prefix(transferred([&] { return ::write(file.get(), text.data(), text.size()); }));
+  if (::fsync(file.get()) != 0) throw_errno();
+}
+
+void require_folder(const fs::path& folder) {
+  if (!fs::is_directory(folder)) fail(folder, fs::exists(folder) ? "is no folder" : "no such folder");
+}
+
+/// The path with its links followed and no slash at its end.
+fs::path resolved(const fs::path& path) {
+  const fs::path full = fs::weakly_canonical(fs::absolute(path));
+  return full.has_filename() ? full : full.parent_path();
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path) {
+  return naming(path, [&] {
+    const Descriptor file(path, O_RDONLY);
+    std::string text, block(65536, '\0');
+    while (const std::size_t count = transferred([&] { return ::read(file.get(), block.data(), block.size()); }))
+      text.append(block, 0, count);
+    return text;
+  });
+}
+
+void write_file(const fs::path& path, std::string_view text, Existing existing) {
+  naming(path, [&] {
+    const fs::path target = resolved(path);
+    require_folder(target.parent_path());
+    if (fs::exists(target)) {
+      if (!fs::is_regular_file(target)) fail(path, "is no regular file");
+      if (existing == Existing::refuse) fail(path, "exists already");
+    }
+    const fs::path assembly = hidden_neighbour(target);
+    const Discard discard{assembly};
+    write_to_disk(assembly, text);
+    fs::rename(assembly, target);
+  });
+}
+
+OutputFolder::OutputFolder(const fs::path& path, Existing existing) {
+  naming(path, [&] {
+    path_ = resolved(path);
+    require_folder(path_.parent_path());
+    if (fs::exists(path_)) {
+      require_folder(path_);
+      if (existing == Existing::refuse && !fs::is_empty(path_)) fail(path, "exists already and is not empty");
+    }
+    assembly_ = hidden_neighbour(path_);
+    fs::create_directory(assembly_);
+  });
+}
+
+OutputFolder::~OutputFolder() { const Discard discard{assembly_}; }
+
+void OutputFolder::write(const fs::path& name, std::string_view text) {
+  naming(path_ / name, [&] {
+    if (fs::exists(assembly_ / name)) fail(path_ / name, "is written twice");
+    fs::create_directories((assembly_ / name).parent_path());
+    write_to_disk(assembly_ / name, text);
+  });
+}
+
+void OutputFolder::commit() {
+  naming(path_, [&] {
+    if (!fs::exists(path_)) return fs::rename(assembly_, path_);
+    for (const auto& entry : fs::recursive_directory_iterator(assembly_)) {
+      const fs::path target = path_ / entry.path().lexically_relative(assembly_);
+      if (fs::exists(target) && fs::is_directory(target) != entry.is_directory())
+        fail(target, entry.is_directory() ? "is no folder" : "is a folder");
+    }
+    for (const auto& entry : fs::recursive_directory_iterator(assembly_)) {
+      const fs::path target = path_ / entry.path().lexically_relative(assembly_);
+      if (entry.is_directory())
+        fs::create_directory(target);
+      else
+        fs::rename(entry.path(), target);
+    }
+  });
+}
+
+}  // namespace sphstab::io
