@@ -82,6 +82,19 @@ Eigen::VectorXd weights(const Body<Dim>& body, const std::vector<double>& N) {
   return NV;
 }
 
+/// (N V)^½ K (N V)^−½, and the (N V)^−½ that turns its eigenvectors into displacements.
+struct SymmetrisedOperator {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd scale;
+};
+
+template <int Dim>
+SymmetrisedOperator symmetrised_operator(const Problem<Dim>& problem, const Body<Dim>& body) {
+  const auto N = normalisation(problem, body);
+  const Eigen::VectorXd scale = weights(body, N).cwiseSqrt().cwiseInverse();
+  return {scale.asDiagonal() * weighted_operator(problem, body, N) * scale.asDiagonal(), scale};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -92,13 +105,11 @@ Eigen::MatrixXd dense_operator(const Problem<Dim>& problem, const Body<Dim>& bod
 
 template <int Dim>
 BodyLimit dense_body_limit(const Problem<Dim>& problem, const Body<Dim>& body) {
-  const auto N = normalisation(problem, body);
-  const Eigen::VectorXd scale = weights(body, N).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd symmetric = scale.asDiagonal() * weighted_operator(problem, body, N) * scale.asDiagonal();
-  const Eigen::VectorXd omega_squared = symmetric.selfadjointView<Eigen::Lower>().eigenvalues();
+  const SymmetrisedOperator op = symmetrised_operator(problem, body);
+  const Eigen::VectorXd omega_squared = op.matrix.selfadjointView<Eigen::Lower>().eigenvalues();
 
   const double largest = omega_squared[omega_squared.size() - 1];
-  const double error = static_cast<double>(symmetric.rows()) * std::numeric_limits<double>::epsilon();
+  const double error = static_cast<double>(op.matrix.rows()) * std::numeric_limits<double>::epsilon();
   const auto limit = [&](double relative) {
     return ModeStep(problem.integrator, problem.scheme.damping, largest * (1.0 + relative)).limit();
   };
@@ -109,7 +120,14 @@ BodyLimit dense_body_limit(const Problem<Dim>& problem, const Body<Dim>& body) {
   return result;
 }
 
+template <int Dim>
+Eigen::VectorXd critical_displacement(const Problem<Dim>& problem, const Body<Dim>& body) {
+  const SymmetrisedOperator op = symmetrised_operator(problem, body);
+  return op.scale.cwiseProduct(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(op.matrix).eigenvectors().rightCols<1>());
+}
+
 template Eigen::MatrixXd dense_operator(const Problem<2>&, const Body<2>&);
+template Eigen::VectorXd critical_displacement(const Problem<2>&, const Body<2>&);
 template BodyLimit dense_body_limit(const Problem<2>&, const Body<2>&);
 
 }  // namespace sphstab::analysis

@@ -26,6 +26,11 @@ struct BodyLimit {
 template <int Dim>
 BodyLimit dense_body_limit(const Problem<Dim>& problem, const Body<Dim>& body);
 
+/// The displacement of the mode of the largest frequency, up to a factor; ordered like s.
+template <int Dim>
+Eigen::VectorXd critical_displacement(const Problem<Dim>& problem, const Body<Dim>& body);
+
+extern template Eigen::VectorXd critical_displacement(const Problem<2>&, const Body<2>&);
 extern template Eigen::MatrixXd dense_operator(const Problem<2>&, const Body<2>&);
 extern template BodyLimit dense_body_limit(const Problem<2>&, const Body<2>&);
 

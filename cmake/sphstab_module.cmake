@@ -3,7 +3,7 @@
 # Flags of everything that is ours. Comparable results on every machine: no fused multiply-adds, no fast math.
 add_library(sphstab_flags INTERFACE)
 target_compile_options(sphstab_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wswitch-enum -Wnon-virtual-dtor -Wold-style-cast
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wswitch-enum -Wnon-virtual-dtor -Wold-style-cast
   -ffp-contract=off
   $<$<BOOL:${SPHSTAB_WARNINGS_AS_ERRORS}>:-Werror>)
 target_include_directories(sphstab_flags INTERFACE ${PROJECT_SOURCE_DIR})

@@ -62,7 +62,7 @@ const Key table[] = {
     {"plate", integers, search, "", "particles of a free rectangular plate, instead of patch", {.low = 2.0}},
     {"seed", word, search, "noise", "start from noise, or from the critical mode of the theory", any_number, seed_words},
     {"noise_seed", integer, search, "1", "seed of the random numbers", not_negative},
-    {"tolerance", number, search, "1e-6", "relative width of the bracket", {.low = 1e-9, .high = 0.1}},
+    {"tolerance", number, search, "1e-6", "relative width of the bracket", {.low = 0.0, .high = 0.1, .low_allowed = false}},
     {"horizon", integer, search, "", "steps of a run; default from the tolerance", {.low = 30.0}},
     {"command", text, search, "",
      "foreign solver: a shell command in which {time_step} and {steps} are replaced and that prints one amplitude a step"},

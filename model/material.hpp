@@ -34,6 +34,8 @@ class Material {
   double shear_modulus() const { return shear_modulus_; }
   double poisson_ratio() const { return poisson_ratio_; }
   double young_modulus() const { return 2.0 * shear_modulus_ * (1.0 + poisson_ratio_); }
+  /// K of three dimensions, E / (3(1−2ν)); infinite for ν = 0.5.
+  double bulk_modulus() const { return young_modulus() / (3.0 * one_minus_two_nu_); }
   /// Throws InvalidInput in plane strain if ν is not below 0.5.
   LameConstants lame(Plane plane) const;
 

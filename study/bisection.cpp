@@ -19,9 +19,11 @@ constexpr long scan_horizon = 200;
 /// Refinement halves the bracket at worst every second run, from 20 % to 1e-9: 56 runs.
 constexpr int refinement_limit = 80;
 
+/// Where two eigenvalues λ, 1/λ meet on the unit circle and leave it with |λ| = e^g, the sum of both exceeds 2 by
+/// 4 sinh²(g/2), which is analytic in Δt with a simple root at the limit.
 struct GrowingStep {
   double time_step;
-  double growth;
+  double excess;
 };
 
 class Search {
@@ -43,13 +45,13 @@ class Search {
     if (growing) {
       high_ = time_step;
       farther_ = nearest_;
-      nearest_ = GrowingStep{time_step, fit.growth_per_step};
+      nearest_ = GrowingStep{time_step, std::pow(std::sinh(0.5 * fit.growth_per_step), 2)};
     } else {
       low_ = time_step;
       low_horizon_ = horizon;
       smallest_detectable_ = fit.smallest_detectable;
     }
-    if (options_.progress) options_.progress(runs_, low_, high_);
+    if (options_.progress) options_.progress(low_, high_);
     return growing;
   }
 
@@ -67,31 +69,36 @@ class Search {
     return false;
   }
 
-  /// Where growth² vanishes on the line through the two nearest growing steps, if that lies below them.
+  /// Where the excess vanishes on the line through the two nearest growing steps.
   std::optional<double> extrapolated_root() const {
-    if (!nearest_ || !farther_) return std::nullopt;
-    const double g1 = nearest_->growth * nearest_->growth, g2 = farther_->growth * farther_->growth;
-    if (!(g2 > g1)) return std::nullopt;
-    return nearest_->time_step - g1 * (farther_->time_step - nearest_->time_step) / (g2 - g1);
+    if (!nearest_ || !farther_ || !(farther_->excess > nearest_->excess)) return std::nullopt;
+    return nearest_->time_step - nearest_->excess * (farther_->time_step - nearest_->time_step) /
+                                     (farther_->excess - nearest_->excess);
   }
 
-  double next_step() const {
+  /// Halving needs no more steps than show growth at a quarter of the interval.
+  long halving_horizon() const { return std::clamp(default_horizon((high_ - low_) / high_), scan_horizon, horizon_); }
+
+  /// Runs the most telling step inside the bracket.
+  void run_inside() {
     const double margin = 0.25 * options_.tolerance * high_;
     const auto root = extrapolated_root();
-    if (!root || *root <= low_ - margin || *root >= high_) return 0.5 * (low_ + high_);
-    // Far away: just above the root, for a better root. Close: a quarter of the tolerance above, then below.
-    if (high_ - *root > 8.0 * margin) return *root + std::max(0.02 * (high_ - *root), margin);
-    if (high_ - *root > 1.5 * margin) return *root + margin;
-    return *root - margin > low_ ? *root - margin : 0.5 * (low_ + high_);
+    const bool useful = root && *root > low_ - margin && *root < high_;
+    if (!useful || (high_ - *root <= 1.5 * margin && *root - margin <= low_))
+      grows(0.5 * (low_ + high_), halving_horizon());
+    else if (high_ - *root > 8.0 * margin)  // far: close above the root, for a better root
+      grows(*root + std::max(0.02 * (high_ - *root), margin), horizon_);
+    else  // close: a quarter of the tolerance above it, then below
+      grows(high_ - *root > 1.5 * margin ? *root + margin : *root - margin, horizon_);
   }
 
   void refine() {
     for (int i = 0; i < refinement_limit; ++i) {
       if (high_ - low_ > options_.tolerance * high_)
-        grows(next_step(), horizon_);
+        run_inside();
       else if (low_horizon_ == horizon_)
         return;
-      else if (grows(low_, horizon_))  // the scan was too short to see it: go on below
+      else if (grows(low_, horizon_))  // its run was too short to see it: go on below
         low_ /= scan_factor;
     }
   }

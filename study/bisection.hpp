@@ -15,7 +15,7 @@ struct BisectionOptions {
   double start;                  ///< first step of the scan, a time; a rule of thumb well inside the stable range
   double tolerance = 1e-6;       ///< relative width of the final bracket
   std::optional<long> horizon = std::nullopt;  ///< steps of a run in the final bracket; default_horizon(tolerance) if absent
-  std::function<void(int runs, double low, double high)> progress = nullptr;
+  std::function<void(double low, double high)> progress = nullptr;  ///< after each run
 };
 
 /// What running found. No critical step: with `low` only nothing grew up to there, with `high` only everything grew.
@@ -34,9 +34,8 @@ struct Bisection {
 long default_horizon(double tolerance);
 
 /// The critical step by running. Scans upwards from `start` in steps of 20 % to the first exit (the stable set need not
-/// be an interval), then closes the bracket around the root of growth² extrapolated from the two growing steps nearest
-/// to it (growth² is analytic in Δt where two eigenvalues meet on the circle), halving where that does not help. Both
-/// ends of the final bracket were run. Tested in tests/study/test_bisection.cpp.
+/// be an interval), then closes the bracket around the root of 4 sinh²(g/2), g the growth per step, extrapolated from the
+/// two growing steps nearest to it, halving where that does not help. Both ends of the final bracket were run. Tested in tests/study/test_bisection.cpp.
 Bisection bisect(const GrowthProbe& probe, const BisectionOptions& options);
 
 }  // namespace sphstab::study

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+
+#include "cli/command.hpp"
+#include "model/case.hpp"
+
+namespace sphstab::cli {
+
+/// The flags of a command, made from the key table: one for every key of its groups, and --case.
+class CaseOptions {
+ public:
+  void add_to(CLI::App& app, const std::vector<KeyGroup>& groups);
+
+  /// The case file, if any, with the flags that were given over it.
+  Case read() const;
+
+ private:
+  std::string case_file_;
+  std::map<const Key*, std::string> texts_;
+  std::map<const Key*, CLI::Option*> options_;
+};
+
+}  // namespace sphstab::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/keys.hpp"
+#include "study/answers.hpp"
+
+namespace sphstab::cli {
+
+using study::Json;
+
+/// Exit statuses of the program.
+enum ExitStatus : int { done = 0, claim_fails = 1, bad_input = 2, run_unstable = 3, internal_fault = 4 };
+
+/// A command that answers one question about one case.
+struct CaseCommand {
+  std::string_view name;
+  std::string_view summary;
+  std::vector<KeyGroup> groups;  ///< whose keys it offers as flags
+  Json (*answer)(const Case& input, const study::Progress& progress);
+  std::string (*describe)(const Json& answer);  ///< for people; absent for commands of `batch` alone
+  bool (*holds)(const Json& answer) = nullptr;  ///< whether the claim that it checks holds; absent: it checks none
+};
+
+CaseCommand dt_command();
+CaseCommand matrix_command();
+CaseCommand bisect_command();
+
+/// Every command that answers a case, those of `batch` alone (`kernel`, `sums`) included.
+std::span<const CaseCommand> case_commands();
+
+/// `batch`: reads JSON lines from a file or, if `path` is empty, from standard input.
+int run_batch(const std::string& path);
+
+/// `list`: names and parameters of what can be named in a case; everything if `topic` is empty.
+Json list_answer(const std::string& topic);
+std::string describe_list(const Json& answer);
+std::span<const std::string_view> list_topics();
+
+}  // namespace sphstab::cli

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "cli/command.hpp"
+#include "model/problem.hpp"
+
+namespace sphstab::cli {
+namespace {
+
+constexpr std::array<std::string_view, 5> topics{"kernels", "lattices", "schemes", "integrators", "keys"};
+
+Json list_kernels() {
+  Json rows = Json::array();
+  for (const auto& [family, name] : Names<KernelFamily>::table) {
+    const Kernel<2> kernel(family, 1.0);
+    Json row{{"name", name}, {"support_in_h", kernel.support()}, {"W0_h2_in_2d", kernel.value(0.0)}};
+    if (family == KernelFamily::gaussian) row["parameters"] = {"gaussian_cutoff"};
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json list_lattices() {
+  Json rows = Json::array();
+  for (const auto& [kind, name] : Names<LatticeKind>::table) {
+    const Lattice<2> lattice(kind, 1.0);
+    Json vectors = Json::array();
+    for (int i = 0; i < 2; ++i) vectors.push_back({lattice.primitive_vectors()(0, i), lattice.primitive_vectors()(1, i)});
+    rows.push_back({{"name", name}, {"dimension", 2}, {"primitive_vectors", vectors}});
+  }
+  return rows;
+}
+
+/// The words of a key, its help and the keys of a group that belong to them.
+Json list_words(std::string_view key, const std::vector<KeyGroup>& groups) {
+  std::vector<std::string_view> parameters;
+  for (const Key& entry : key_table())
+    if (entry.name != key && std::find(groups.begin(), groups.end(), entry.group) != groups.end())
+      parameters.push_back(entry.name);
+  Json rows = Json::array();
+  for (const auto& word : find_key(key).words) {
+    Json row{{"name", word}};
+    if (!parameters.empty()) row["parameters"] = parameters;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json list_keys() {
+  Json rows = Json::array();
+  for (const Key& key : key_table()) {
+    Json row{{"name", key.name}, {"default", key.default_value}, {"help", key.help}};
+    if (!key.words.empty()) row["allowed"] = std::vector<std::string_view>(key.words.begin(), key.words.end());
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json list_topic(std::string_view topic) {
+  if (topic == "kernels") return list_kernels();
+  if (topic == "lattices") return list_lattices();
+  if (topic == "schemes") return list_words("scheme", {KeyGroup::scheme, KeyGroup::material});
+  if (topic == "integrators") return list_words("integrator", {});
+  return list_keys();
+}
+
+}  // namespace
+
+std::span<const std::string_view> list_topics() { return topics; }
+
+Json list_answer(const std::string& topic) {
+  if (!topic.empty() && std::find(topics.begin(), topics.end(), topic) == topics.end())
+    throw unknown_word("list", topic, topics);
+  Json answer;
+  for (const auto name : topics)
+    if (topic.empty() || topic == name) answer[std::string(name)] = list_topic(name);
+  return answer;
+}
+
+std::string describe_list(const Json& answer) {
+  std::string text;
+  for (const auto& [topic, rows] : answer.items()) {
+    text += topic + ":\n";
+    for (const Json& entry : rows) {
+      text += fmt::format("  {:<28}", entry["name"].get<std::string>());
+      for (const auto& [key, value] : entry.items())
+        if (key != "name" && value != "") text += fmt::format(" {}: {};", key, value.is_string() ? value.get<std::string>() : value.dump());
+      if (text.back() == ';') text.pop_back();
+      text += "\n";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace sphstab::cli

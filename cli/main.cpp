@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "cli/case_options.hpp"
+#include "cli/command.hpp"
+#include "cli/report.hpp"
+#include "io/document.hpp"
+#include "io/progress.hpp"
+
+namespace sphstab::cli {
+namespace {
+
+constexpr std::array<std::string_view, 5> formats{"text", "json", "csv", "markdown", "latex"};
+
+/// Prints a result in the format asked for; `describe` makes the text for people.
+void print(const Json& answer, const std::string& format, std::string (*describe)(const Json&)) {
+  std::cout << (format == "text" ? describe(answer) : io::write(answer, from_name<io::Format>("format", format)));
+}
+
+void add_format(CLI::App& app, std::string& format) {
+  app.add_option("--format", format, "text, json, csv, markdown or latex [text]")->type_name("");
+}
+
+void check_format(const std::string& format) {
+  if (std::find(formats.begin(), formats.end(), format) == formats.end()) throw unknown_word("format", format, formats);
+}
+
+int run_case_command(const CaseCommand& command, const Case& input, const std::string& format) {
+  check_format(format);
+  io::Progress bar{std::string(command.name)};
+  const Json answer = command.answer(input, [&](double fraction) { bar.show(fraction); });
+  print(answer, format, command.describe);
+  return command.holds == nullptr || command.holds(answer) ? ExitStatus::done : ExitStatus::claim_fails;
+}
+
+/// What the subcommands store while the command line is read, and do once it has been.
+struct Action {
+  CLI::App* app;
+  std::function<int()> run;
+};
+
+class Program {
+ public:
+  Program() {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", "sphstab " SPHSTAB_VERSION);
+    for (const CaseCommand& command : case_commands())
+      if (command.describe != nullptr) add_case_command(command);
+    add_batch();
+    add_list();
+    add_report();
+  }
+
+  int run(int argc, char** argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::Success& success) {
+      return app_.exit(success);
+    } catch (const CLI::ParseError& error) {
+      if (argc == 1) std::cerr << app_.help();
+      throw InvalidInput(error.what());
+    }
+    refuse_rest(app_, "command", command_names());
+    for (const Action& action : actions_)
+      if (action.app->parsed()) {
+        refuse_rest(*action.app, "option", option_names(*action.app));
+        return action.run();
+      }
+    return ExitStatus::internal_fault;
+  }
+
+ private:
+  CLI::App* add(std::string_view name, std::string_view summary) {
+    CLI::App* app = app_.add_subcommand(std::string(name), std::string(summary));
+    app->allow_extras();
+    return app;
+  }
+
+  void add_case_command(const CaseCommand& command) {
+    CLI::App* app = add(command.name, command.summary);
+    auto options = std::make_shared<CaseOptions>();
+    options->add_to(*app, command.groups);
+    add_format(*app, format_);
+    actions_.push_back({app, [this, command, options] { return run_case_command(command, options->read(), format_); }});
+  }
+
+  void add_batch() {
+    CLI::App* app = add("batch", "one JSON case a line in, one JSON result a line out");
+    app->add_option("file", argument_, "JSON lines; default: standard input")->type_name("");
+    actions_.push_back({app, [this] { return run_batch(argument_); }});
+  }
+
+  void add_list() {
+    CLI::App* app = add("list", "the names and parameters of kernels, lattices, schemes, integrators and keys");
+    app->add_option("topic", argument_, "one of them; default: all")->type_name("");
+    add_format(*app, format_);
+    actions_.push_back({app, [this] {
+                          check_format(format_);
+                          print(list_answer(argument_), format_, describe_list);
+                          return static_cast<int>(ExitStatus::done);
+                        }});
+  }
+
+  void add_report() {
+    CLI::App* app = add("report", "regenerate a report: table, data and figure in a folder of reports");
+    auto options = std::make_shared<ReportOptions>();
+    app->add_option("name", options->name, "which report [zhang-plate]")->type_name("");
+    app->add_option("--output", options->output, "folder of reports [reports]")->type_name("FOLDER");
+    app->add_flag("--overwrite", options->overwrite, "replace a report that exists");
+    app->add_flag("--check", options->check, "write nothing; exit with status 1 if a claim of the report does not hold");
+    actions_.push_back({app, [options] { return run_report(*options); }});
+  }
+
+  std::vector<std::string> command_names() const {
+    std::vector<std::string> names;
+    for (const Action& action : actions_) names.push_back(action.app->get_name());
+    return names;
+  }
+
+  static std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+      if (option->nonpositional()) names.push_back("--" + option->get_lnames().front());
+    return names;
+  }
+
+  static void refuse_rest(const CLI::App& app, std::string_view what, const std::vector<std::string>& names) {
+    const auto rest = app.remaining();
+    if (rest.empty()) return;
+    const std::vector<std::string_view> allowed(names.begin(), names.end());
+    throw unknown_word(what, rest.front().substr(0, rest.front().find('=')), allowed);
+  }
+
+  CLI::App app_{"Which time step is safe for elastic solids in SPH, and what is not: theory, and a solver that proves it."};
+  std::vector<Action> actions_;
+  std::string format_ = "text";
+  std::string argument_;
+};
+
+}  // namespace
+
+std::span<const CaseCommand> case_commands() {
+  static const std::array<CaseCommand, 5> commands{
+      dt_command(), matrix_command(), bisect_command(),
+      CaseCommand{"kernel", "a kernel and its derivatives at a distance", {}, study::kernel_answer, nullptr},
+      CaseCommand{"sums", "Gray's lattice sums at a wave vector", {}, study::sums_answer, nullptr}};
+  return commands;
+}
+
+}  // namespace sphstab::cli
+
+int main(int argc, char** argv) {
+  using namespace sphstab;
+  try {
+    return cli::Program().run(argc, argv);
+  } catch (const InvalidInput& error) {
+    std::cerr << "sphstab: " << error.what() << "\n";
+    return cli::ExitStatus::bad_input;
+  } catch (const std::exception& error) {
+    std::cerr << "sphstab: internal fault: " << error.what() << "\n";
+    return cli::ExitStatus::internal_fault;
+  }
+}

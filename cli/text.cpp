@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "cli/text.hpp"
+
+#include <fmt/format.h>
+
+namespace sphstab::cli {
+
+std::string row(std::string_view name, std::string_view content) { return fmt::format("  {:<20} {}\n", name, content); }
+
+std::string numbers(const study::Json& list, int digits) {
+  std::string text;
+  for (const auto& number : list) text += fmt::format("{}{:.{}g}", text.empty() ? "" : ", ", number.get<double>(), digits);
+  return text;
+}
+
+std::string number_or(const study::Json& number, std::string_view otherwise) {
+  return number.is_null() ? std::string(otherwise) : fmt::format("{:.12g}", number.get<double>());
+}
+
+}  // namespace sphstab::cli

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "study/answers.hpp"
+
+namespace sphstab::cli {
+
+/// One line of a result for people: a name and what it is.
+std::string row(std::string_view name, std::string_view content);
+
+/// The numbers of a list with so many significant digits, separated by commas.
+std::string numbers(const study::Json& list, int digits);
+
+/// A number with 12 digits, or `otherwise` for null.
+std::string number_or(const study::Json& number, std::string_view otherwise);
+
+}  // namespace sphstab::cli

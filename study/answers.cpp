@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "study/answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/amplification.hpp"
+#include "analysis/critical_step.hpp"
+#include "analysis/lattice_sums.hpp"
+#include "study/foreign_solver.hpp"
+#include "study/rules_of_thumb.hpp"
+#include "study/step_comparison.hpp"
+
+namespace sphstab::study {
+namespace {
+
+constexpr const char* bulk_note =
+    "bulk value of an infinite lattice: free, renormalised edges can need 0.6 of it and irregular particles 0.85";
+
+template <class... Handlers>
+struct Overloaded : Handlers... {
+  using Handlers::operator()...;
+};
+template <class... Handlers>
+Overloaded(Handlers...) -> Overloaded<Handlers...>;
+
+/// Calls `answer` with the dimension as a compile-time constant: the one place where a run-time dimension becomes one.
+template <class Answer>
+Json in_dimension(const Case& input, const Answer& answer) {
+  if (input.dimension() == 2) return answer(std::integral_constant<int, 2>());
+  throw InvalidInput(fmt::format("dimension: {} is not 2, the only dimension that has lattices so far", input.dimension()));
+}
+
+template <int Rows>
+Json to_json(const Vector<Rows>& vector) {
+  return std::vector<double>(vector.data(), vector.data() + Rows);
+}
+
+template <int Dim>
+Json to_json(const Tensor<Dim>& tensor) {
+  Json rows = Json::array();
+  for (int i = 0; i < Dim; ++i) rows.push_back(to_json<Dim>(Vector<Dim>(tensor.row(i))));
+  return rows;
+}
+
+Json to_json(std::complex<double> value) { return {value.real(), value.imag()}; }
+
+Json to_json(const analysis::ComplexMatrix& matrix) {
+  Json rows = Json::array();
+  for (int i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < matrix.cols(); ++j) row.push_back(to_json(matrix(i, j)));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+template <int Dim>
+Json to_json(const analysis::CriticalMode<Dim>& mode) {
+  return {{"wave_vector", to_json<Dim>(mode.wave_vector)},
+          {"branch", mode.branch == analysis::Branch::longitudinal ? "longitudinal" : "transverse"},
+          {"omega", mode.omega}};
+}
+
+/// The verdict with what belongs to it: step and bracket, or growth rate, and the critical mode.
+template <int Dim>
+Json to_json(const analysis::StepLimit<Dim>& limit) {
+  return std::visit(Overloaded{[](const analysis::ConditionallyStable<Dim>& stable) -> Json {
+                                 return {{"critical_time_step", stable.critical_time_step},
+                                         {"bracket", {stable.bracket.low, stable.bracket.high}},
+                                         {"verdict", "conditionally-stable"},
+                                         {"critical_mode", to_json<Dim>(stable.mode)}};
+                               },
+                               [](const analysis::UnconditionallyStable&) -> Json {
+                                 return {{"critical_time_step", nullptr}, {"verdict", "unconditionally-stable"}};
+                               },
+                               [](const analysis::NeverStable<Dim>& unstable) -> Json {
+                                 return {{"critical_time_step", nullptr},
+                                         {"verdict", "never-stable"},
+                                         {"growth_rate", unstable.growth_rate},
+                                         {"critical_mode", to_json<Dim>(unstable.mode)}};
+                               }},
+                    limit);
+}
+
+template <int Dim>
+Json equivalents(const Problem<Dim>& problem, double critical_time_step) {
+  Json rows = Json::array();
+  for (const auto& rule : rules_of_thumb(problem.material, problem.kernel.smoothing_length(), Dim)) {
+    const double factor = critical_time_step / rule.unit;
+    Json row{{"rule", rule.rule}, {"formula", rule.formula}, {"factor_at_limit", factor}};
+    row["default"] = rule.default_factor ? Json(*rule.default_factor) : Json();
+    row["default_is_safe"] = rule.default_factor ? Json(*rule.default_factor <= factor) : Json();
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+/// The growth per step that the user accepts: tolerated_growth_per_step, or one e-folding over `steps`.
+std::optional<double> tolerated_growth(const Case& input) {
+  const auto growth = input.number("tolerated_growth_per_step"), steps = input.number("steps");
+  if (growth && steps) throw InvalidInput("tolerated_growth_per_step: cannot be given with steps");
+  return steps ? std::expm1(1.0 / *steps) : growth;
+}
+
+template <int Dim>
+Json time_step_answer(const Case& input) {
+  const auto problem = make_problem<Dim>(input);
+  Json answer = to_json<Dim>(analysis::bulk_limit(problem));
+  const Json step = answer["critical_time_step"];
+  answer["bulk_only"] = true;
+  answer["note"] = bulk_note;
+  answer["symbol_maximum"] = analysis::symbol_maximum(problem);
+  if (step.is_number()) {
+    const double p_wave_speed =
+        std::sqrt(problem.material.lame(problem.plane).p_wave_modulus() / problem.material.density());
+    answer["courant_number"] = step.get<double>() * p_wave_speed / problem.lattice.spacing();
+    answer["equivalents"] = equivalents(problem, step);
+  }
+  if (const auto bound = analysis::published_bound(problem))
+    answer["published_bound"] = {{"source", "Zhang, Hu, Cui & Wang, Eq. 15"},
+                                 {"value", *bound},
+                                 {"holds", step.is_number() && *bound <= step.get<double>()}};
+  if (input.has("wave_vector") || input.has("mode"))
+    answer["mode_limit"] = to_json<Dim>(analysis::mode_limit(problem, make_wave_vector<Dim>(input)));
+  else if (const auto box = make_counts<Dim>(input, "box"))
+    answer["box_limit"] = to_json<Dim>(analysis::paper_limit(problem, *box));
+  if (const auto growth = tolerated_growth(input)) {
+    const auto tolerable = analysis::step_for_growth(problem, *growth);
+    answer["time_step_for_tolerance"] = tolerable ? Json(*tolerable) : Json();
+  }
+  if (const auto time_step = input.number("time_step"))
+    answer["spectral_radius_at_time_step"] = analysis::zone_spectral_radius(problem, *time_step);
+  const auto zeros = analysis::zero_energy_modes(problem);
+  answer["zero_energy_modes"] = Json::array();
+  for (const auto& wave_vector : zeros.wave_vectors) answer["zero_energy_modes"].push_back(to_json<Dim>(wave_vector));
+  answer["zero_energy_modes_complete"] = zeros.complete;
+  return answer;
+}
+
+template <int Dim>
+Json matrix_answer(const Case& input) {
+  const auto problem = make_problem<Dim>(input);
+  const auto wave_vector = make_wave_vector<Dim>(input);
+  const double time_step = input.required_number("time_step");
+  const auto spectrum = analysis::mode_spectrum(problem, wave_vector, time_step);
+  Json eigenvalues = Json::array();
+  for (const auto& eigenvalue : spectrum.eigenvalues) eigenvalues.push_back(to_json(eigenvalue));
+  return {{"wave_vector", to_json<Dim>(wave_vector)},
+          {"time_step", time_step},
+          {"state", analysis::state_names(problem)},
+          {"amplification_matrix", to_json(analysis::amplification_matrix(problem, wave_vector, time_step))},
+          {"eigenvalues", std::move(eigenvalues)},
+          {"spectral_radius", spectrum.spectral_radius},
+          {"power_bounded", spectrum.power_bounded}};
+}
+
+constexpr int default_patch_cells = 16;
+
+template <int Dim>
+BodyChoice<Dim> body_choice(const Case& input) {
+  const auto patch = make_counts<Dim>(input, "patch"), plate = make_counts<Dim>(input, "plate");
+  if (patch && plate) throw InvalidInput("patch: cannot be given with plate");
+  if (plate) return {Boundary::free, *plate};
+  return {Boundary::periodic, patch.value_or(LatticeIndex<Dim>::Constant(default_patch_cells))};
+}
+
+Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+template <int Dim>
+Json bisection_answer(const Case& input, const Progress& progress) {
+  const auto problem = make_problem<Dim>(input);
+  const auto choice = body_choice<Dim>(input);
+  RunOptions options{.start_from_mode = input.required_word("seed") == "mode",
+                     .noise_seed = static_cast<unsigned>(input.required_number("noise_seed")),
+                     .tolerance = input.required_number("tolerance")};
+  if (const auto horizon = input.number("horizon")) options.horizon = static_cast<long>(*horizon);
+  if (progress)
+    options.progress = [&](double low, double high) {
+      progress(std::clamp(std::log((high - low) / high) / std::log(options.tolerance), 0.0, 1.0));
+    };
+  const auto command = input.word("command");
+  const auto found = compare_step(problem, choice, options, command ? foreign_solver(*command) : nullptr);
+  const auto counts = std::vector<int>(choice.counts.data(), choice.counts.data() + Dim);
+  return {{choice.boundary == Boundary::free ? "plate" : "patch", counts},
+          {"critical_time_step", number_or_null(found.run.critical_time_step)},
+          {"bracket", {found.run.low, found.run.high}},
+          {"theory", number_or_null(found.theory)},
+          {"relative_difference", number_or_null(found.relative_difference())},
+          {"tolerance", options.tolerance},
+          {"agrees", found.agrees(options.tolerance)},
+          {"bulk_theory", number_or_null(found.bulk_theory)},
+          {"patch_deficit", number_or_null(found.patch_deficit())},
+          {"horizon", found.run.horizon},
+          {"runs", found.run.runs},
+          {"steps", found.run.steps},
+          {"smallest_detectable_growth", found.run.smallest_detectable}};
+}
+
+template <int Dim>
+Json kernel_answer(const Case& input) {
+  const auto kernel = make_kernel<Dim>(input);
+  const double distance = input.required_number("distance");
+  return {{"W", kernel.value(distance)},
+          {"dW", kernel.slope(distance)},
+          {"d2W", kernel.curvature(distance)},
+          {"normalisation", kernel.normalisation()}};
+}
+
+template <int Dim>
+Json sums_answer(const Case& input) {
+  const auto sums =
+      analysis::lattice_sums(make_lattice<Dim>(input), make_kernel<Dim>(input), neighbour_rule(input),
+                             make_wave_vector<Dim>(input), input.required_number("artificial_stress_exponent"));
+  return {{"A", to_json<Dim>(sums.A)},
+          {"B", to_json<Dim>(sums.B)},
+          {"beta_sum", sums.beta_sum},
+          {"f", to_json<Dim>(sums.f)},
+          {"neighbours", sums.neighbours}};
+}
+
+}  // namespace
+
+Json time_step_answer(const Case& input, const Progress&) {
+  return in_dimension(input, [&](auto dimension) { return time_step_answer<dimension()>(input); });
+}
+
+Json matrix_answer(const Case& input, const Progress&) {
+  return in_dimension(input, [&](auto dimension) { return matrix_answer<dimension()>(input); });
+}
+
+Json bisection_answer(const Case& input, const Progress& progress) {
+  return in_dimension(input, [&](auto dimension) { return bisection_answer<dimension()>(input, progress); });
+}
+
+Json sums_answer(const Case& input, const Progress&) {
+  return in_dimension(input, [&](auto dimension) { return sums_answer<dimension()>(input); });
+}
+
+Json kernel_answer(const Case& input, const Progress&) {
+  switch (input.dimension()) {
+    case 1:
+      return kernel_answer<1>(input);
+    case 2:
+      return kernel_answer<2>(input);
+    default:
+      return kernel_answer<3>(input);
+  }
+}
+
+}  // namespace sphstab::study

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "study/growth_run.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace sphstab::study {
+namespace {
+
+using solver::Field;
+using solver::GrowthFit;
+using solver::State;
+using solver::Trend;
+
+/// Size of the perturbation, √(strain energy / (p-wave modulus · volume)): a strain. Six digits above rounding even on a
+/// base state of strain 1, so that noise of the arithmetic stays small beside it.
+constexpr double seed_strain = 1e-10;
+/// A linear scheme may grow until the modes have parted; a nonlinear one must stay below strains of 2e-5, where the error
+/// of the growth is of that order.
+constexpr double linear_e_foldings = 40.0;
+constexpr double nonlinear_e_foldings = 12.0;
+/// Noise beside the fastest mode of the run before.
+constexpr double noise_beside_mode = 0.1;
+/// Undecided runs are prolonged to this many horizons.
+constexpr int longest_run = 4;
+/// No run is judged by fewer amplitudes.
+constexpr std::size_t fewest_samples = 12;
+/// Strain energies taken in a horizon; each costs half a right-hand side.
+constexpr long samples = 1000;
+
+/// Uniform numbers in [−1, 1) that are the same everywhere (the standard's distributions are not).
+template <int Dim>
+Field<Dim> noise(int particles, unsigned noise_seed) {
+  std::mt19937_64 generator(noise_seed);
+  Field<Dim> field(particles);
+  for (auto& vector : field)
+    for (int i = 0; i < Dim; ++i) vector[i] = std::ldexp(static_cast<double>(generator() >> 11), -52) - 1.0;
+  return field;
+}
+
+/// The fit of a run that overflowed before it could be judged: it grew at least as fast as its finite part.
+GrowthFit explosion(const std::vector<double>& log_amplitude, int stride) {
+  const double steps = stride * std::max(1.0, static_cast<double>(log_amplitude.size()) - 1.0);
+  return {Trend::growing, (log_amplitude.back() - log_amplitude.front()) / steps, 0.0, static_cast<long>(steps)};
+}
+
+template <int Dim>
+void add_scaled(Field<Dim>& field, double factor, const Field<Dim>& other) {
+  for (std::size_t a = 0; a < field.size(); ++a) field[a] += factor * other[a];
+}
+
+}  // namespace
+
+template <int Dim>
+GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, unsigned noise_seed)
+    : GrowthRun(problem, body, noise<Dim>(body.size(), noise_seed)) {}
+
+template <int Dim>
+GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& displacement)
+    : simulation_(problem, body),
+      energy_scale_(problem.material.lame(problem.plane).p_wave_modulus() *
+                    std::accumulate(body.volume.begin(), body.volume.end(), 0.0)),
+      largest_e_foldings_(problem.scheme.momentum_density == MomentumDensity::frozen ? linear_e_foldings
+                                                                                     : nonlinear_e_foldings),
+      seed_(body.size()) {
+  seed_.displacement = displacement;
+  scale_to_seed(seed_);
+}
+
+template <int Dim>
+double GrowthRun<Dim>::amplitude(const State<Dim>& state) const {
+  return std::sqrt(simulation_.strain_energy(state) / energy_scale_);
+}
+
+template <int Dim>
+void GrowthRun<Dim>::scale_to_seed(State<Dim>& state) const {
+  const double factor = seed_strain / amplitude(state);
+  for (auto& s : state.displacement) s *= factor;
+  for (auto& v : state.velocity) v *= factor;
+}
+
+template <int Dim>
+State<Dim> GrowthRun<Dim>::start() const {
+  if (!fastest_mode_) return seed_;
+  State<Dim> state = *fastest_mode_;
+  add_scaled<Dim>(state.displacement, noise_beside_mode, seed_.displacement);
+  return state;
+}
+
+template <int Dim>
+bool GrowthRun<Dim>::run(long end, double time_step, int stride, State<Dim>& state, std::vector<double>& log_amplitude) {
+  while (stride * static_cast<long>(log_amplitude.size() - 1) < end) {
+    simulation_.advance(state, time_step, stride);
+    const double next = std::log(amplitude(state));
+    if (!std::isfinite(next)) return false;
+    log_amplitude.push_back(next);
+    if (next - log_amplitude.front() > largest_e_foldings_ && log_amplitude.size() > fewest_samples) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+GrowthFit GrowthRun<Dim>::operator()(double time_step, long horizon) {
+  const int stride = static_cast<int>(std::max(1L, horizon / samples));
+  State<Dim> state = start();
+  std::vector<double> log_amplitude{std::log(amplitude(state))};
+  GrowthFit fit{};
+  for (long end = horizon; end <= longest_run * horizon; end *= 2) {
+    const bool goes_on = run(end, time_step, stride, state, log_amplitude);
+    if (log_amplitude.size() <= fewest_samples) return explosion(log_amplitude, stride);
+    fit = solver::judge_growth(log_amplitude, stride);
+    if (fit.trend != Trend::undecided || !goes_on) break;
+  }
+  if (fit.trend == Trend::growing) {
+    scale_to_seed(state);
+    fastest_mode_ = std::move(state);
+  }
+  return fit;
+}
+
+template class GrowthRun<2>;
+
+}  // namespace sphstab::study

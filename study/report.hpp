@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "study/answers.hpp"
+
+namespace sphstab::study {
+
+/// A report: text for the terminal, files for its folder, and every claim that did not hold, a line each.
+struct Report {
+  std::string summary;
+  std::vector<std::pair<std::string, std::string>> files;  ///< name and content
+  std::vector<std::string> failures;
+};
+
+struct ReportMaker {
+  std::string_view name;  ///< of the report and its folder
+  Report (*make)(const Progress& progress);
+};
+
+/// The report of that name. Throws InvalidInput that names the reports there are.
+const ReportMaker& find_report(std::string_view name);
+
+/// Zhang's Case 1: Eq. 15, the exact bulk limit and bisection on a periodic patch and on the free 20×20 plate, with and
+/// without kernel normalisation, against H/Δ.
+Report zhang_plate_report(const Progress& progress);
+
+}  // namespace sphstab::study

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "study/step_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "analysis/amplification.hpp"
+#include "analysis/body_operator.hpp"
+#include "analysis/critical_step.hpp"
+#include "study/growth_run.hpp"
+
+namespace sphstab::study {
+namespace {
+
+/// The scan starts at this fraction of h over the p-wave speed; no kernel or lattice has its limit below 1.4 h/c_p in
+/// bulk (theory.md §6), and normalised edges lower it to 0.6 of that.
+constexpr double start_fraction = 0.3;
+
+template <int Dim>
+Body<Dim> make_body(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
+  switch (choice.boundary) {
+    case Boundary::periodic:
+      return periodic_patch<Dim>(problem, choice.counts);
+    case Boundary::free:
+      if (!problem.displacement_gradient.isZero())
+        throw InvalidInput("displacement_gradient: a free plate takes none, it would not be in equilibrium");
+      if (choice.counts.prod() > largest_dense_body)
+        throw InvalidInput(fmt::format("plate: {} particles are more than the {} of a dense spectrum",
+                                       choice.counts.prod(), largest_dense_body));
+      return free_plate<Dim>(problem, choice.counts);
+  }
+  return {};
+}
+
+template <int Dim>
+std::optional<double> step_of(const analysis::StepLimit<Dim>& limit) {
+  if (const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit)) return stable->critical_time_step;
+  return std::nullopt;
+}
+
+template <int Dim>
+double scan_start(const Problem<Dim>& problem) {
+  const double modulus = problem.material.lame(problem.plane).p_wave_modulus();
+  return start_fraction * problem.kernel.smoothing_length() * std::sqrt(problem.material.density() / modulus);
+}
+
+/// The displacement of the theory's critical mode.
+template <int Dim>
+solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice,
+                                              const Body<Dim>& body) {
+  solver::Field<Dim> displacement(body.size());
+  if (choice.boundary == Boundary::free) {
+    const Eigen::VectorXd mode = analysis::critical_displacement(problem, body);
+    for (int a = 0; a < body.size(); ++a) displacement[a] = mode.template segment<Dim>(Dim * a);
+    return displacement;
+  }
+  const auto limit = analysis::patch_limit(problem, choice.counts);
+  const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit);
+  if (stable == nullptr) throw InvalidInput("seed: there is no critical mode to start from; use noise");
+  const Vector<Dim> k = stable->mode.wave_vector;
+  const Eigen::EigenSolver<Tensor<Dim>> modes(analysis::dynamical_matrix(problem, k));
+  int fastest = 0;
+  modes.eigenvalues().real().maxCoeff(&fastest);
+  // An eighth of a wave off the origin: at a zone boundary a sine would vanish on every particle.
+  for (int a = 0; a < body.size(); ++a)
+    displacement[a] = modes.eigenvectors().col(fastest).real() * std::cos(k.dot(body.position[a]) + std::atan(1.0));
+  return displacement;
+}
+
+}  // namespace
+
+std::optional<double> StepComparison::relative_difference() const {
+  if (!run.critical_time_step || !theory) return std::nullopt;
+  return std::abs(*run.critical_time_step - *theory) / *theory;
+}
+
+std::optional<double> StepComparison::patch_deficit() const {
+  if (!theory || !bulk_theory) return std::nullopt;
+  return *theory / *bulk_theory - 1.0;
+}
+
+bool StepComparison::agrees(double tolerance) const {
+  const auto difference = relative_difference();
+  return difference ? *difference <= tolerance : !run.critical_time_step && !theory;
+}
+
+template <int Dim>
+std::optional<double> theory_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
+  if (choice.boundary == Boundary::periodic) return step_of<Dim>(analysis::patch_limit(problem, choice.counts));
+  return analysis::dense_body_limit(problem, make_body(problem, choice)).critical_time_step;
+}
+
+template <int Dim>
+std::optional<double> bulk_step(const Problem<Dim>& problem) {
+  return step_of<Dim>(analysis::bulk_limit(problem));
+}
+
+template <int Dim>
+StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,
+                            const GrowthProbe& probe) {
+  const auto body = make_body(problem, choice);
+  const BisectionOptions search{.start = scan_start(problem),
+                                .tolerance = options.tolerance,
+                                .horizon = options.horizon,
+                                .progress = options.progress};
+  const auto run = [&] {
+    if (probe) return bisect(probe, search);
+    if (options.start_from_mode)
+      return bisect(GrowthRun<Dim>(problem, body, critical_mode_displacement(problem, choice, body)), search);
+    return bisect(GrowthRun<Dim>(problem, body, options.noise_seed), search);
+  };
+  return {run(), theory_step(problem, choice), bulk_step(problem)};
+}
+
+template std::optional<double> theory_step(const Problem<2>&, const BodyChoice<2>&);
+template std::optional<double> bulk_step(const Problem<2>&);
+template StepComparison compare_step(const Problem<2>&, const BodyChoice<2>&, const RunOptions&, const GrowthProbe&);
+
+}  // namespace sphstab::study

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "model/body.hpp"
+#include "study/bisection.hpp"
+
+namespace sphstab::study {
+
+enum class Boundary { periodic, free };
+
+/// The body that is run: periodic cells of the lattice, or the particles of a free plate.
+template <int Dim>
+struct BodyChoice {
+  Boundary boundary;
+  LatticeIndex<Dim> counts;
+};
+
+struct RunOptions {
+  bool start_from_mode = false;  ///< of the theory, instead of noise
+  unsigned noise_seed = 1;
+  double tolerance = 1e-6;
+  std::optional<long> horizon = std::nullopt;
+  std::function<void(double low, double high)> progress = nullptr;  ///< after each run
+};
+
+/// The critical step of one body, by running and by theory. Absent values: there is no such step.
+struct StepComparison {
+  Bisection run;
+  std::optional<double> theory;       ///< of the same body: admitted wave vectors of a patch, spectrum of a plate
+  std::optional<double> bulk_theory;  ///< of the infinite lattice
+
+  /// |run − theory| / theory, if both exist.
+  std::optional<double> relative_difference() const;
+  /// theory / bulk_theory − 1: a periodic patch misses the critical wave vector, a free plate has edges.
+  std::optional<double> patch_deficit() const;
+  /// Both exist and agree within the tolerance, or neither exists.
+  bool agrees(double tolerance) const;
+};
+
+/// Plates with more particles are refused: the dense spectrum beside the run would take minutes.
+inline constexpr int largest_dense_body = 1600;
+
+/// The critical step by theory alone, of the body or of the infinite lattice.
+template <int Dim>
+std::optional<double> theory_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice);
+template <int Dim>
+std::optional<double> bulk_step(const Problem<Dim>& problem);
+
+/// Finds the critical step of the body by running the solver with `probe` if given (a foreign solver), ours otherwise,
+/// and sets theory beside it. Throws InvalidInput (`displacement_gradient`) for a free plate with a base state, which is
+/// no equilibrium there, and (`plate`) if it is too large.
+template <int Dim>
+StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,
+                            const GrowthProbe& probe = nullptr);
+
+}  // namespace sphstab::study

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <atomic>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <mutex>
+
+#include "analysis/critical_step.hpp"
+#include "io/document.hpp"
+#include "io/figure.hpp"
+#include "study/parallel.hpp"
+#include "study/report.hpp"
+#include "study/step_comparison.hpp"
+
+namespace sphstab::study {
+namespace {
+
+/// Validation Case 1 of Zhang et al.: 20×20 particles, l = h = 5e-4 m, E = 0.39 Pa, ρ = 1000 kg/m³, Gaussian kernel. The
+/// ratio E/G = 1.3 is μ = 0.3; Appendix B is plane stress. H is not given (errata.md Z7), so it is varied.
+constexpr double spacing = 2.5e-5, density = 1000.0, young_modulus = 0.39, poisson_ratio = 0.3;
+constexpr double gaussian_cutoff = 7.0;  // untruncated to double precision
+constexpr int plate_particles = 20, patch_cells = 16;
+constexpr double tolerance = 1e-6;
+constexpr std::array<double, 15> h_over_spacing{0.5,  0.6, 0.65, 0.7, 0.75, 0.8,  0.85, 0.9,
+                                                0.95, 1.0, 1.1,  1.2, 1.4,  1.7, 2.0};
+/// Points of the curves of Eq. 15 and of the bulk limit.
+constexpr int curve_points = 76;
+
+constexpr const char* case_file = R"(# Zhang, Hu, Cui & Wang, validation Case 1; H is varied (smoothing length over spacing)
+scheme = "tl-linear"
+plane = "stress"
+spacing = 2.5e-5
+density = 1000.0
+young_modulus = 0.39
+poisson_ratio = 0.3
+kernel = "gaussian"
+gaussian_cutoff = 7
+h_over_spacing = 0.8
+plate = [20, 20]
+)";
+
+Problem<2> plate_problem(double ratio, Plane plane, KernelNormalisation normalisation) {
+  Problem<2> problem{.lattice = Lattice<2>(LatticeKind::square, spacing),
+                     .kernel = Kernel<2>(KernelFamily::gaussian, ratio * spacing, gaussian_cutoff),
+                     .material = Material::from_young_modulus(density, young_modulus, poisson_ratio),
+                     .plane = plane};
+  problem.scheme.kernel_normalisation = normalisation;
+  return problem;
+}
+
+const BodyChoice<2> patch{Boundary::periodic, {patch_cells, patch_cells}};
+const BodyChoice<2> plate{Boundary::free, {plate_particles, plate_particles}};
+
+/// The three things that are run, with the column that shows them.
+struct Setting {
+  std::string_view name;
+  BodyChoice<2> choice;
+  KernelNormalisation normalisation;
+};
+const std::array<Setting, 3> settings{{{"periodic patch", patch, KernelNormalisation::none},
+                                       {"free plate", plate, KernelNormalisation::none},
+                                       {"free plate, normalised", plate, KernelNormalisation::sum}}};
+
+struct Row {
+  double ratio;
+  double published;
+  double bulk;
+  std::array<StepComparison, 3> runs;
+};
+
+double published(double ratio, Plane plane) {
+  return *analysis::published_bound(plate_problem(ratio, plane, KernelNormalisation::none));
+}
+
+/// H/Δ at which Eq. 15 equals the limit, above which it is unsafe; to 1e-4.
+double crossing(Plane plane, const std::function<double(double ratio)>& limit) {
+  const auto excess = [&](double ratio) { return published(ratio, plane) - limit(ratio); };
+  const auto close = [](double low, double high) { return high - low < 1e-4; };
+  std::uintmax_t iterations = 50;
+  const auto [low, high] = boost::math::tools::toms748_solve(excess, 0.72, 1.2, close, iterations);
+  return 0.5 * (low + high);
+}
+
+double bulk_crossing(Plane plane) {
+  return crossing(plane, [plane](double ratio) { return *bulk_step(plate_problem(ratio, plane, KernelNormalisation::none)); });
+}
+
+double plate_crossing(Plane plane, KernelNormalisation normalisation) {
+  return crossing(plane, [=](double ratio) { return *theory_step(plate_problem(ratio, plane, normalisation), plate); });
+}
+
+std::vector<Row> run_all(const Progress& progress) {
+  std::vector<Row> rows(h_over_spacing.size());
+  constexpr int count = static_cast<int>(h_over_spacing.size() * settings.size());
+  std::atomic<int> finished{0};
+  std::mutex reporting;
+  // Wide kernels cost most: they go first, so that no thread is left with one at the end.
+  parallel_for(count, [&](int task) {
+    const std::size_t i = h_over_spacing.size() - 1 - static_cast<std::size_t>(task) / settings.size();
+    const Setting& setting = settings[static_cast<std::size_t>(task) % settings.size()];
+    const auto problem = plate_problem(h_over_spacing[i], Plane::stress, setting.normalisation);
+    rows[i].runs[static_cast<std::size_t>(task) % settings.size()] =
+        compare_step(problem, setting.choice, {.tolerance = tolerance});
+    const double fraction = static_cast<double>(++finished) / count;
+    const std::lock_guard lock(reporting);
+    if (progress) progress(fraction);
+  });
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].ratio = h_over_spacing[i];
+    rows[i].published = published(rows[i].ratio, Plane::stress);
+    rows[i].bulk = *bulk_step(plate_problem(rows[i].ratio, Plane::stress, KernelNormalisation::none));
+  }
+  return rows;
+}
+
+/// What Eq. 15 is worth at this H: safe everywhere, or where it is not.
+std::string judgement(const Row& row) {
+  std::string unsafe = row.published > row.bulk ? "bulk" : "";
+  for (std::size_t i = 1; i < settings.size(); ++i)
+    if (row.published > row.runs[i].run.critical_time_step)
+      unsafe += (unsafe.empty() ? "" : ", ") + std::string(settings[i].name);
+  return unsafe.empty() ? "conservative" : "unsafe: " + unsafe;
+}
+
+io::Document to_document(const std::vector<Row>& rows) {
+  io::Document document = io::Document::array();
+  for (const Row& row : rows) {
+    io::Document entry{{"h_over_spacing", row.ratio}, {"eq_15", row.published}, {"bulk", row.bulk}};
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      entry[fmt::format("run_{}", i)] = row.runs[i].run.critical_time_step.value_or(std::nan(""));
+      entry[fmt::format("theory_{}", i)] = row.runs[i].theory.value_or(std::nan(""));
+      entry[fmt::format("difference_{}", i)] = row.runs[i].relative_difference().value_or(std::nan(""));
+    }
+    entry["eq_15_over_bulk"] = row.published / row.bulk;
+    entry["eq_15_is"] = judgement(row);
+    document.push_back(std::move(entry));
+  }
+  return document;
+}
+
+io::Table to_table(const std::vector<Row>& rows, const std::string& step_format, double unit_in_seconds,
+                   std::string_view unit) {
+  std::vector<io::Column> columns{{"h_over_spacing", "H/Δ", "{:.2f}"}};
+  const auto step = [&](const std::string& key, const std::string& name) {
+    columns.push_back({key, fmt::format("{} [{}]", name, unit), step_format});
+  };
+  step("eq_15", "Eq. 15");
+  step("bulk", "exact bulk");
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    step(fmt::format("run_{}", i), fmt::format("run: {}", settings[i].name));
+    step(fmt::format("theory_{}", i), fmt::format("theory: {}", settings[i].name));
+  }
+  columns.push_back({"eq_15_over_bulk", "Eq. 15 / bulk", "{:.3f}"});
+  columns.push_back({"eq_15_is", "Eq. 15 is"});
+  io::Document document = to_document(rows);
+  for (auto& row : document)
+    for (auto& [key, value] : row.items())
+      if (key.starts_with("run_") || key.starts_with("theory_") || key == "eq_15" || key == "bulk")
+        value = value.get<double>() / unit_in_seconds;
+  return io::select(document, columns);
+}
+
+io::LineFigure to_figure(const std::vector<Row>& rows, double unsafe_from) {
+  constexpr double millisecond = 1e-3;
+  io::LineFigure figure;
+  figure.title = "Critical time step of Zhang's Case 1 plate against the smoothing length";
+  figure.x_label = "H / Δ";
+  figure.y_label = "critical time step [ms]";
+  figure.y_log = true;
+  figure.shades.push_back({unsafe_from, h_over_spacing.back(), "Eq. 15 unsafe in bulk"});
+  io::Curve eq_15{"Eq. 15", {}, io::CurveStyle::dashed}, bulk{"exact bulk limit", {}, io::CurveStyle::line};
+  for (int i = 0; i < curve_points; ++i) {
+    const double ratio =
+        h_over_spacing.front() + (h_over_spacing.back() - h_over_spacing.front()) * i / (curve_points - 1);
+    eq_15.points.emplace_back(ratio, published(ratio, Plane::stress) / millisecond);
+    bulk.points.emplace_back(ratio,
+                             *bulk_step(plate_problem(ratio, Plane::stress, KernelNormalisation::none)) / millisecond);
+  }
+  figure.curves = {eq_15, bulk};
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    io::Curve curve{fmt::format("bisection, {}", settings[i].name), {}, io::CurveStyle::points};
+    for (const Row& row : rows)
+      if (row.runs[i].run.critical_time_step)
+        curve.points.emplace_back(row.ratio, *row.runs[i].run.critical_time_step / millisecond);
+    figure.curves.push_back(std::move(curve));
+  }
+  return figure;
+}
+
+std::vector<std::string> find_failures(const std::vector<Row>& rows) {
+  std::vector<std::string> failures;
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < settings.size(); ++i)
+      if (!row.runs[i].agrees(tolerance))
+        failures.push_back(fmt::format("H/Δ = {}: bisection on the {} and its theory differ by more than {:g}", row.ratio,
+                                       settings[i].name, tolerance));
+  return failures;
+}
+
+double largest_difference(const std::vector<Row>& rows) {
+  double largest = 0.0;
+  for (const Row& row : rows)
+    for (const auto& comparison : row.runs) largest = std::max(largest, comparison.relative_difference().value_or(0.0));
+  return largest;
+}
+
+}  // namespace
+
+Report zhang_plate_report(const Progress& progress) {
+  const auto rows = run_all(progress);
+  const double bulk_stress = bulk_crossing(Plane::stress);
+  std::string text = fmt::format(
+      "Zhang, Hu, Cui & Wang, Case 1: {0}×{0} particles, Gaussian kernel, plane stress, leapfrog.\n"
+      "Critical time step by Eq. 15, by the exact bulk theory, and by bisection on the running solver: a periodic patch\n"
+      "of {1}×{1} particles and the free plate, without and with kernel normalisation, each beside its own theory.\n\n",
+      plate_particles, patch_cells);
+  text += io::to_markdown(to_table(rows, "{:.6f}", 1e-3, "ms"));
+  text += fmt::format(
+      "\nEq. 15 is conservative where only the four nearest neighbours matter and unsafe for wider kernels:\n\n"
+      "- above H/Δ = {:.3f} in bulk (plane strain: {:.3f}),\n"
+      "- above H/Δ = {:.3f} on the free plate,\n"
+      "- above H/Δ = {:.3f} on the free plate with kernel normalisation.\n\n",
+      bulk_stress, bulk_crossing(Plane::strain), plate_crossing(Plane::stress, KernelNormalisation::none),
+      plate_crossing(Plane::stress, KernelNormalisation::sum));
+  const auto failures = find_failures(rows);
+  text += fmt::format("{} bisections, tolerance {:g}: {} differ from theory by more than it.\n",
+                      rows.size() * settings.size(), tolerance, failures.size());
+
+  Report report;
+  report.summary = text + fmt::format("Largest relative difference: {:.1e}.\n", largest_difference(rows));
+  report.files = {{"README.md", "# Critical time step of Zhang's Case 1 plate\n\n" + text +
+                                    "\n![Critical time step against H/Δ](figure.svg)\n\n"
+                                    "Regenerate with `sphstab report zhang-plate --overwrite`; `case.toml` holds the data "
+                                    "of one H, `table.csv` the numbers in seconds.\n"},
+                  {"case.toml", case_file},
+                  {"table.csv", io::to_csv(to_table(rows, "{:.8e}", 1.0, "s"))},
+                  {"table.md", io::to_markdown(to_table(rows, "{:.6f}", 1e-3, "ms"))},
+                  {"figure.svg", io::render_svg(to_figure(rows, bulk_stress))}};
+  report.failures = failures;
+  return report;
+}
+
+}  // namespace sphstab::study
