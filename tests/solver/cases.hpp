@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
@@ -35,6 +36,13 @@ inline State<2> random_state(int particles, double amplitude, unsigned seed) {
     state.velocity[a] = Vector<2>(next(), next());
   }
   return state;
+}
+
+/// A free plate whose particles differ in volume, so that V_a in the place of V_b shows.
+inline Body<2> uneven_plate(const Problem<2>& problem, const LatticeIndex<2>& particles) {
+  Body<2> body = free_plate(problem, particles);
+  for (int a = 0; a < body.size(); ++a) body.volume[a] *= 1.0 + 0.2 * std::sin(a);
+  return body;
 }
 
 inline double largest(const Field<2>& field) {

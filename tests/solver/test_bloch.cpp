@@ -16,8 +16,8 @@ namespace {
 using Complex = std::complex<double>;
 using Amplitude = Vector<2, Complex>;
 
-/// Sums over some 20 neighbours and 12 particles, of numbers of order 1: 240 · 2.2e-16 and their phases.
-constexpr double rounding = 1e-13;
+/// Two nested sums over some 20 neighbours and a mean over particles, of numbers of order 1, twice: 4 · 20 · 2.2e-16.
+constexpr double rounding = 2e-14;
 constexpr double time_step = 0.3;
 
 const Amplitude some_amplitude(Complex(0.3, -0.2), Complex(-0.5, 0.7));

@@ -14,9 +14,9 @@ using namespace sphstab::solver::test;
 namespace {
 
 /// Central differences with step 1e-5 of a map with third derivatives of order 10: 10 · 1e-10 / 6, and 2e-16 / 1e-5.
-constexpr double difference_step = 1e-5, difference_tolerance = 2e-9;
-/// A few dozen roundings of entries of order 1.
-constexpr double rounding = 1e-13;
+constexpr double difference_step = 1e-5, difference_tolerance = 4e-10;
+/// A product of 36 pivots of order 1, each with a few roundings: 36 · 2 · 2.2e-16.
+constexpr double rounding = 2e-14;
 constexpr double time_step = 0.3;
 
 double& component(State<2>& state, int index) {
