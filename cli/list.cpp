@@ -27,9 +27,10 @@ Json list_lattices() {
   Json rows = Json::array();
   for (const auto& [kind, name] : Names<LatticeKind>::table) {
     const Lattice<2> lattice(kind, 1.0);
-    Json vectors = Json::array();
-    for (int i = 0; i < 2; ++i) vectors.push_back({lattice.primitive_vectors()(0, i), lattice.primitive_vectors()(1, i)});
-    rows.push_back({{"name", name}, {"dimension", 2}, {"primitive_vectors", vectors}});
+    Json row{{"name", name}, {"dimension", 2}};
+    for (const auto& a : lattice.primitive_vectors().colwise())
+      row["primitive_vectors"].push_back(std::vector<double>(a.begin(), a.end()));
+    rows.push_back(std::move(row));
   }
   return rows;
 }
@@ -52,7 +53,8 @@ Json list_words(std::string_view key, const std::vector<KeyGroup>& groups) {
 Json list_keys() {
   Json rows = Json::array();
   for (const Key& key : key_table()) {
-    Json row{{"name", key.name}, {"default", key.default_value}, {"help", key.help}};
+    Json row{{"name", key.name}, {"help", key.help}};
+    if (!key.default_value.empty()) row["default"] = key.default_value;
     if (!key.words.empty()) row["allowed"] = std::vector<std::string_view>(key.words.begin(), key.words.end());
     rows.push_back(std::move(row));
   }
@@ -83,15 +85,17 @@ Json list_answer(const std::string& topic) {
 std::string describe_list(const Json& answer) {
   std::string text;
   for (const auto& [topic, rows] : answer.items()) {
-    text += topic + ":\n";
+    text += fmt::format("{}:\n", topic);
     for (const Json& entry : rows) {
       text += fmt::format("  {:<28}", entry["name"].get<std::string>());
-      for (const auto& [key, value] : entry.items())
-        if (key != "name" && value != "") text += fmt::format(" {}: {};", key, value.is_string() ? value.get<std::string>() : value.dump());
-      if (text.back() == ';') text.pop_back();
-      text += "\n";
+      for (const auto& [key, value] : entry.items()) {
+        if (key == "name") continue;
+        const std::string content = value.is_string() ? value.get<std::string>() : value.dump();
+        text += fmt::format(" {}: {}", key, content);
+      }
+      text += '\n';
     }
-    text += "\n";
+    text += '\n';
   }
   return text;
 }
