@@ -28,11 +28,11 @@ GrowthFit judge_growth(std::span<const double> log_amplitude, int stride) {
   const double last = slope(log_amplitude.last(third)) / stride;
   const double before = slope(log_amplitude.last(2 * third).first(third)) / stride;
   const double smallest = smallest_e_foldings / (static_cast<double>(third) * stride);
-  const bool agree = std::abs(last - before) <= slope_agreement * last;
+  const double disagreement = std::abs(last - before) / std::abs(last);
   const auto first = log_amplitude.first(third);
   const bool higher = log_amplitude.back() >= *std::max_element(first.begin(), first.end()) + smallest_e_foldings;
-  const Trend trend = last < smallest ? Trend::bounded : agree && higher ? Trend::growing : Trend::undecided;
-  return {trend, last, smallest, (static_cast<long>(log_amplitude.size()) - 1) * stride};
+  const Trend trend = last < smallest ? Trend::bounded : disagreement <= slope_agreement && higher ? Trend::growing : Trend::undecided;
+  return {trend, last, smallest, disagreement, (static_cast<long>(log_amplitude.size()) - 1) * stride};
 }
 
 }  // namespace sphstab::solver

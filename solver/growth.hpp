@@ -17,6 +17,7 @@ struct GrowthFit {
   Trend trend;
   double growth_per_step;        ///< slope of ln(amplitude) over the last third of the run
   double smallest_detectable;    ///< slopes below this count as bounded
+  double disagreement;           ///< |slope over the last third − slope over the second| / slope over the last
   long steps;                    ///< of the run
 };
 

@@ -76,20 +76,23 @@ class Search {
                                      (farther_->excess - nearest_->excess);
   }
 
-  /// Halving needs no more steps than show growth at a quarter of the interval.
-  long halving_horizon() const { return std::clamp(default_horizon((high_ - low_) / high_), scan_horizon, horizon_); }
+  /// Halving needs no more steps than show growth at a quarter of the interval, if growth is like a square root.
+  long halving_horizon() const {
+    if (short_runs_deceive_ || scan_horizon > horizon_) return horizon_;
+    return std::clamp(default_horizon((high_ - low_) / high_), scan_horizon, horizon_);
+  }
 
   /// Runs the most telling step inside the bracket.
   void run_inside() {
     const double margin = 0.25 * options_.tolerance * high_;
     const auto root = extrapolated_root();
     const bool useful = root && *root > low_ - margin && *root < high_;
-    if (!useful || (high_ - *root <= 1.5 * margin && *root - margin <= low_))
+    if (!useful || (high_ - *root <= 1.5 * margin && *root - 2.0 * margin <= low_))
       grows(0.5 * (low_ + high_), halving_horizon());
     else if (high_ - *root > 8.0 * margin)  // far: close above the root, for a better root
       grows(*root + std::max(0.02 * (high_ - *root), margin), horizon_);
-    else  // close: a quarter of the tolerance above it, then below
-      grows(high_ - *root > 1.5 * margin ? *root + margin : *root - margin, horizon_);
+    else  // close: a quarter of the tolerance above it, then half below, where the beat is faster
+      grows(high_ - *root > 1.5 * margin ? *root + margin : *root - 2.0 * margin, horizon_);
   }
 
   void refine() {
@@ -98,8 +101,10 @@ class Search {
         run_inside();
       else if (low_horizon_ == horizon_)
         return;
-      else if (grows(low_, horizon_))  // its run was too short to see it: go on below
+      else if (grows(low_, horizon_)) {  // its run was too short to see it: go on below with long ones only
         low_ /= scan_factor;
+        short_runs_deceive_ = true;
+      }
     }
   }
 
@@ -116,6 +121,7 @@ class Search {
   long low_horizon_ = 0;  ///< of the run that found `low_` bounded
   double high_ = std::numeric_limits<double>::infinity();
   std::optional<GrowingStep> nearest_, farther_;
+  bool short_runs_deceive_ = false;
   int runs_ = 0;
   long steps_ = 0;
   double smallest_detectable_ = 0.0;

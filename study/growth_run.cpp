@@ -23,8 +23,12 @@ constexpr double linear_e_foldings = 40.0;
 constexpr double nonlinear_e_foldings = 12.0;
 /// Noise beside the fastest mode of the run before.
 constexpr double noise_beside_mode = 0.1;
-/// Undecided runs are prolonged to this many horizons.
+/// Runs are judged for the first time at this part of the horizon, and again whenever they are twice as long; those that
+/// grow at one rate by then end, undecided ones go on up to `longest_run` horizons.
+constexpr int first_look = 8;
 constexpr int longest_run = 4;
+/// Relative difference of two slopes below which a growth is known well enough to find the root of the bisection.
+constexpr double settled = 1e-4;
 /// No run is judged by fewer amplitudes.
 constexpr std::size_t fewest_samples = 12;
 /// Strain energies taken in a horizon; each costs half a right-hand side.
@@ -43,7 +47,7 @@ Field<Dim> noise(int particles, unsigned noise_seed) {
 /// The fit of a run that overflowed before it could be judged: it grew at least as fast as its finite part.
 GrowthFit explosion(const std::vector<double>& log_amplitude, int stride) {
   const double steps = stride * std::max(1.0, static_cast<double>(log_amplitude.size()) - 1.0);
-  return {Trend::growing, (log_amplitude.back() - log_amplitude.front()) / steps, 0.0, static_cast<long>(steps)};
+  return {Trend::growing, (log_amplitude.back() - log_amplitude.front()) / steps, 0.0, 1.0, static_cast<long>(steps)};
 }
 
 template <int Dim>
@@ -107,11 +111,13 @@ GrowthFit GrowthRun<Dim>::operator()(double time_step, long horizon) {
   State<Dim> state = start();
   std::vector<double> log_amplitude{std::log(amplitude(state))};
   GrowthFit fit{};
-  for (long end = horizon; end <= longest_run * horizon; end *= 2) {
+  for (long end = std::max(1L, horizon / first_look); end <= longest_run * horizon; end *= 2) {
     const bool goes_on = run(end, time_step, stride, state, log_amplitude);
-    if (log_amplitude.size() <= fewest_samples) return explosion(log_amplitude, stride);
+    if (!goes_on && log_amplitude.size() <= fewest_samples) return explosion(log_amplitude, stride);
+    if (goes_on && log_amplitude.size() <= fewest_samples) continue;
     fit = solver::judge_growth(log_amplitude, stride);
-    if (fit.trend != Trend::undecided || !goes_on) break;
+    if (!goes_on || (fit.trend == Trend::growing && fit.disagreement < settled)) break;
+    if (end >= horizon && fit.trend != Trend::undecided) break;
   }
   if (fit.trend == Trend::growing) {
     scale_to_seed(state);

@@ -16,7 +16,7 @@ study::GrowthProbe growth_law(double (*growth)(double time_step)) {
   return [growth](double time_step, long horizon) {
     const double smallest = 3.0 / static_cast<double>(horizon);
     const double rate = growth(time_step);
-    return GrowthFit{rate < smallest ? Trend::bounded : Trend::growing, rate, smallest, horizon};
+    return GrowthFit{rate < smallest ? Trend::bounded : Trend::growing, rate, smallest, 0.0, horizon};
   };
 }
 
