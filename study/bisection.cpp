@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace sphstab::study {
 namespace {
@@ -16,15 +17,52 @@ constexpr double scan_factor = 1.2;
 constexpr int scan_limit = 50;
 /// The scan only looks for an exit; a growth of 3/200 per step is that of a step 3e-5 above the limit.
 constexpr long scan_horizon = 200;
+/// A run close above the limit that the law predicts, at this part of the gap, gives a better law.
+constexpr double approach = 0.02;
+/// Growths closer than this relative difference tell nothing of the law.
+constexpr double smallest_separation = 1e-2;
+/// Where an eigenvalue crosses the circle alone, growth near the limit is slow: the horizon may become this many times
+/// the default.
+constexpr long longest_horizon = 256;
+/// E-foldings that a run of one horizon is to show.
+constexpr double e_foldings = 5.0;
 /// Refinement halves the bracket at worst every second run, from 20 % to 1e-9: 56 runs.
 constexpr int refinement_limit = 80;
 
-/// Where two eigenvalues λ, 1/λ meet on the unit circle and leave it with |λ| = e^g, the sum of both exceeds 2 by
-/// 4 sinh²(g/2), which is analytic in Δt with a simple root at the limit.
+/// A step that grew: |λ| = e^g, x = 2 sinh(g/2).
 struct GrowingStep {
   double time_step;
-  double excess;
+  double x;
 };
+
+/// Δt(x) = limit + linear x + quadratic x² through the growing steps nearest to the limit. Where two eigenvalues λ, 1/λ
+/// meet on the unit circle, x² is analytic in Δt and the linear term vanishes; where one crosses the circle alone (damping,
+/// viscosity), x itself is. The fit holds for both and for all between.
+struct GrowthLaw {
+  double limit, linear, quadratic;
+
+  /// x at a step above the limit.
+  double x(double time_step) const {
+    const double c = time_step - limit;
+    return 2.0 * c / (linear + std::sqrt(linear * linear + 4.0 * quadratic * c));
+  }
+};
+
+/// The square-root law through two steps, p nearer to the limit than q.
+GrowthLaw square_root_law(const GrowingStep& p, const GrowingStep& q) {
+  const double quadratic = (q.time_step - p.time_step) / (q.x * q.x - p.x * p.x);
+  return {p.time_step - quadratic * p.x * p.x, 0.0, quadratic};
+}
+
+/// The law through three steps by divided differences.
+GrowthLaw interpolated_law(const GrowingStep& p, const GrowingStep& q, const GrowingStep& r) {
+  const double pq = (q.time_step - p.time_step) / (q.x - p.x), qr = (r.time_step - q.time_step) / (r.x - q.x);
+  const double quadratic = (qr - pq) / (r.x - p.x);
+  const double linear = pq - quadratic * (p.x + q.x);
+  return {p.time_step - (linear + quadratic * p.x) * p.x, linear, quadratic};
+}
+
+long horizon_for_growth(double growth_per_step) { return static_cast<long>(std::ceil(e_foldings / growth_per_step)); }
 
 class Search {
  public:
@@ -44,8 +82,7 @@ class Search {
     const bool growing = fit.trend != Trend::bounded;
     if (growing) {
       high_ = time_step;
-      farther_ = nearest_;
-      nearest_ = GrowingStep{time_step, std::pow(std::sinh(0.5 * fit.growth_per_step), 2)};
+      growing_.insert(growing_.begin(), {time_step, 2.0 * std::sinh(0.5 * fit.growth_per_step)});
     } else {
       low_ = time_step;
       low_horizon_ = horizon;
@@ -69,11 +106,16 @@ class Search {
     return false;
   }
 
-  /// Where the excess vanishes on the line through the two nearest growing steps.
-  std::optional<double> extrapolated_root() const {
-    if (!nearest_ || !farther_ || !(farther_->excess > nearest_->excess)) return std::nullopt;
-    return nearest_->time_step - nearest_->excess * (farther_->time_step - nearest_->time_step) /
-                                     (farther_->excess - nearest_->excess);
+  bool inside(const GrowthLaw& law) const { return law.limit > low_ && law.limit < high_ && law.linear >= 0.0; }
+
+  /// The law of growth near the limit, if one through the nearest steps has its limit in the bracket.
+  std::optional<GrowthLaw> law() const {
+    const auto distinct = [this](std::size_t i) { return growing_[i].x > (1.0 + smallest_separation) * growing_[i - 1].x; };
+    if (growing_.size() < 2 || !distinct(1)) return std::nullopt;
+    if (growing_.size() > 2 && distinct(2))
+      if (const auto law = interpolated_law(growing_[0], growing_[1], growing_[2]); inside(law)) return law;
+    const auto law = square_root_law(growing_[0], growing_[1]);
+    return inside(law) ? std::optional(law) : std::nullopt;
   }
 
   /// Halving needs no more steps than show growth at a quarter of the interval, if growth is like a square root.
@@ -82,17 +124,20 @@ class Search {
     return std::clamp(default_horizon((high_ - low_) / high_), scan_horizon, horizon_);
   }
 
-  /// Runs the most telling step inside the bracket.
+  /// Runs the most telling step inside the bracket: far from the limit one close above it, for a better law; then a
+  /// quarter of the tolerance above it, then half below, where the beat is faster.
   void run_inside() {
     const double margin = 0.25 * options_.tolerance * high_;
-    const auto root = extrapolated_root();
-    const bool useful = root && *root > low_ - margin && *root < high_;
-    if (!useful || (high_ - *root <= 1.5 * margin && *root - 2.0 * margin <= low_))
+    const auto fitted = law();
+    if (!fitted || (high_ - fitted->limit <= 1.5 * margin && fitted->limit - 2.0 * margin <= low_)) {
       grows(0.5 * (low_ + high_), halving_horizon());
-    else if (high_ - *root > 8.0 * margin)  // far: close above the root, for a better root
-      grows(*root + std::max(0.02 * (high_ - *root), margin), horizon_);
-    else  // close: a quarter of the tolerance above it, then half below, where the beat is faster
-      grows(high_ - *root > 1.5 * margin ? *root + margin : *root - 2.0 * margin, horizon_);
+      return;
+    }
+    const double gap = high_ - fitted->limit;
+    const double above = fitted->limit + (gap > 8.0 * margin ? std::max(approach * gap, margin) : margin);
+    if (!options_.horizon)
+      horizon_ = std::clamp(horizon_for_growth(fitted->x(above)), horizon_, longest_horizon * default_horizon(options_.tolerance));
+    grows(gap > 1.5 * margin ? above : fitted->limit - 2.0 * margin, horizon_);
   }
 
   void refine() {
@@ -110,8 +155,8 @@ class Search {
 
   std::optional<double> critical_time_step() const {
     if (!(low_ > 0.0) || !std::isfinite(high_)) return std::nullopt;
-    const auto root = extrapolated_root();
-    return root && *root > low_ && *root < high_ ? *root : 0.5 * (low_ + high_);
+    const auto fitted = law();
+    return fitted ? fitted->limit : 0.5 * (low_ + high_);
   }
 
   const GrowthProbe& probe_;
@@ -120,7 +165,7 @@ class Search {
   double low_ = 0.0;
   long low_horizon_ = 0;  ///< of the run that found `low_` bounded
   double high_ = std::numeric_limits<double>::infinity();
-  std::optional<GrowingStep> nearest_, farther_;
+  std::vector<GrowingStep> growing_;  ///< nearest to the limit first
   bool short_runs_deceive_ = false;
   int runs_ = 0;
   long steps_ = 0;
@@ -129,7 +174,7 @@ class Search {
 
 }  // namespace
 
-long default_horizon(double tolerance) { return static_cast<long>(std::ceil(5.0 / std::sqrt(2.0 * tolerance))); }
+long default_horizon(double tolerance) { return horizon_for_growth(std::sqrt(2.0 * tolerance)); }
 
 Bisection bisect(const GrowthProbe& probe, const BisectionOptions& options) { return Search(probe, options).run(); }
 

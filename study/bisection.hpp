@@ -14,7 +14,7 @@ using GrowthProbe = std::function<solver::GrowthFit(double time_step, long horiz
 struct BisectionOptions {
   double start;                  ///< first step of the scan, a time; a rule of thumb well inside the stable range
   double tolerance = 1e-6;       ///< relative width of the final bracket
-  std::optional<long> horizon = std::nullopt;  ///< steps of a run in the final bracket; default_horizon(tolerance) if absent
+  std::optional<long> horizon = std::nullopt;  ///< steps of a run in the final bracket; chosen if absent
   std::function<void(double low, double high)> progress = nullptr;  ///< after each run
 };
 
@@ -23,7 +23,7 @@ struct Bisection {
   std::optional<double> critical_time_step;  ///< root of the fitted growth inside the bracket
   double low;                                ///< largest step found bounded; 0 if none
   double high;                               ///< smallest step found growing; infinity if none
-  long horizon;
+  long horizon;                ///< of the runs in the final bracket
   int runs;
   long steps;                  ///< over all runs
   double smallest_detectable;  ///< growth per step that the horizon can show
@@ -34,8 +34,9 @@ struct Bisection {
 long default_horizon(double tolerance);
 
 /// The critical step by running. Scans upwards from `start` in steps of 20 % to the first exit (the stable set need not
-/// be an interval), then closes the bracket around the root of 4 sinh²(g/2), g the growth per step, extrapolated from the
-/// two growing steps nearest to it, halving where that does not help. Both ends of the final bracket were run. Tested in tests/study/test_bisection.cpp.
+/// be an interval), then closes the bracket around the root of the growth, fitted to the growing steps nearest to it,
+/// halving where that does not help. Both ends of the final bracket were run. Unless a horizon is given it becomes as long
+/// as the growth at a quarter of the tolerance above the limit needs, up to 256 times the default. Tested in tests/study/test_bisection.cpp.
 Bisection bisect(const GrowthProbe& probe, const BisectionOptions& options);
 
 }  // namespace sphstab::study

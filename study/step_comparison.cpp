@@ -46,29 +46,6 @@ double scan_start(const Problem<Dim>& problem) {
   return start_fraction * problem.kernel.smoothing_length() * std::sqrt(problem.material.density() / modulus);
 }
 
-/// The displacement of the theory's critical mode.
-template <int Dim>
-solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice,
-                                              const Body<Dim>& body) {
-  solver::Field<Dim> displacement(body.size());
-  if (choice.boundary == Boundary::free) {
-    const Eigen::VectorXd mode = analysis::critical_displacement(problem, body);
-    for (int a = 0; a < body.size(); ++a) displacement[a] = mode.template segment<Dim>(Dim * a);
-    return displacement;
-  }
-  const auto limit = analysis::patch_limit(problem, choice.counts);
-  const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit);
-  if (stable == nullptr) throw InvalidInput("seed: there is no critical mode to start from; use noise");
-  const Vector<Dim> k = stable->mode.wave_vector;
-  const Eigen::EigenSolver<Tensor<Dim>> modes(analysis::dynamical_matrix(problem, k));
-  int fastest = 0;
-  modes.eigenvalues().real().maxCoeff(&fastest);
-  // An eighth of a wave off the origin: at a zone boundary a sine would vanish on every particle.
-  for (int a = 0; a < body.size(); ++a)
-    displacement[a] = modes.eigenvectors().col(fastest).real() * std::cos(k.dot(body.position[a]) + std::atan(1.0));
-  return displacement;
-}
-
 }  // namespace
 
 std::optional<double> StepComparison::relative_difference() const {
@@ -98,6 +75,28 @@ std::optional<double> bulk_step(const Problem<Dim>& problem) {
 }
 
 template <int Dim>
+solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice,
+                                              const Body<Dim>& body) {
+  solver::Field<Dim> displacement(body.size());
+  if (choice.boundary == Boundary::free) {
+    const Eigen::VectorXd mode = analysis::critical_displacement(problem, body);
+    for (int a = 0; a < body.size(); ++a) displacement[a] = mode.template segment<Dim>(Dim * a);
+    return displacement;
+  }
+  const auto limit = analysis::patch_limit(problem, choice.counts);
+  const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit);
+  if (stable == nullptr) throw InvalidInput("seed: there is no critical mode to start from; use noise");
+  const Vector<Dim> k = stable->mode.wave_vector;
+  const Eigen::EigenSolver<Tensor<Dim>> modes(analysis::dynamical_matrix(problem, k));
+  int fastest = 0;
+  modes.eigenvalues().real().maxCoeff(&fastest);
+  // An eighth of a wave off the origin: at a zone boundary a sine would vanish on every particle.
+  for (int a = 0; a < body.size(); ++a)
+    displacement[a] = modes.eigenvectors().col(fastest).real() * std::cos(k.dot(body.position[a]) + std::atan(1.0));
+  return displacement;
+}
+
+template <int Dim>
 StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,
                             const GrowthProbe& probe) {
   const auto body = make_body(problem, choice);
@@ -116,6 +115,7 @@ StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& 
 
 template std::optional<double> theory_step(const Problem<2>&, const BodyChoice<2>&);
 template std::optional<double> bulk_step(const Problem<2>&);
+template solver::Field<2> critical_mode_displacement(const Problem<2>&, const BodyChoice<2>&, const Body<2>&);
 template StepComparison compare_step(const Problem<2>&, const BodyChoice<2>&, const RunOptions&, const GrowthProbe&);
 
 }  // namespace sphstab::study

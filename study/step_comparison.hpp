@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/body.hpp"
+#include "solver/state.hpp"
 #include "study/bisection.hpp"
 
 namespace sphstab::study {
@@ -45,6 +46,12 @@ template <int Dim>
 std::optional<double> theory_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice);
 template <int Dim>
 std::optional<double> bulk_step(const Problem<Dim>& problem);
+
+/// The displacement of the theory's critical mode on the body of that choice, up to a factor. Throws InvalidInput (`seed`)
+/// where no mode is critical.
+template <int Dim>
+solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice,
+                                              const Body<Dim>& body);
 
 /// Finds the critical step of the body by running the solver with `probe` if given (a foreign solver), ours otherwise,
 /// and sets theory beside it. Throws InvalidInput (`displacement_gradient`) for a free plate with a base state, which is

@@ -48,6 +48,23 @@ TEST_CASE("the root of growth squared needs far fewer runs than halving", "[fast
   CHECK(found.runs <= 12);
 }
 
+TEST_CASE("an eigenvalue that crosses the circle alone is found too, with as long a horizon as its growth needs", "[fast]") {
+  // e^g solves (e^g − 1)(e^g − 1 + a) = 8δ, as for leapfrog with damping: linear near the limit, a square root beyond.
+  for (const double damping : {1e-3, 1e-2, 0.3}) {
+    INFO("damping " << damping);
+    const study::GrowthProbe probe = [damping](double time_step, long horizon) {
+      const double excess = std::max(0.0, 8.0 * (time_step - 1.0)), smallest = 3.0 / static_cast<double>(horizon);
+      const double growth = std::log1p(2.0 * excess / (damping + std::sqrt(damping * damping + 4.0 * excess)));
+      return GrowthFit{growth < smallest ? Trend::bounded : Trend::growing, growth, smallest, 0.0, horizon};
+    };
+    const auto found = study::bisect(probe, {.start = 0.3, .tolerance = tolerance});
+    REQUIRE(found.critical_time_step);
+    CHECK(found.high - found.low <= tolerance * found.high);
+    CHECK(*found.critical_time_step == Approx(1.0).epsilon(tolerance));
+    CHECK(found.horizon >= study::default_horizon(tolerance));
+  }
+}
+
 TEST_CASE("a law that is no square root is bracketed all the same", "[fast]") {
   const auto linear = [](double time_step) { return 40.0 * (time_step - 1.0); };
   const auto found = study::bisect(growth_law(linear), {.start = 0.3, .tolerance = 1e-3, .horizon = 1000000});

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Rungs 5 and 6: growth and critical steps of the running solver against theory.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "analysis/amplification.hpp"
+#include "analysis/critical_step.hpp"
+#include "ladder/cases.hpp"
+#include "study/growth_run.hpp"
+#include "study/step_comparison.hpp"
+
+using namespace sphstab;
+using study::Boundary;
+
+namespace {
+
+/// The bisection's own: both ends of its bracket were run, and it is this narrow.
+constexpr double bisection_tolerance = 1e-6;
+/// Rung 5, per step: the bound of the ladder. The run starts from the displacement of the theory's critical mode.
+constexpr double growth_tolerance = 1e-5;
+
+void check_bisection(const Problem<2>& problem, const study::BodyChoice<2>& choice,
+                     study::RunOptions options = {.tolerance = bisection_tolerance}) {
+  const auto found = study::compare_step(problem, choice, options);
+  REQUIRE(found.run.critical_time_step);
+  REQUIRE(found.theory);
+  CHECK(found.run.high - found.run.low <= bisection_tolerance * found.run.high);
+  CHECK(*found.relative_difference() < bisection_tolerance);
+}
+
+}  // namespace
+
+TEST_CASE("rung 5: above the limit a seeded mode grows by ln of the spectral radius a step", "[ladder]") {
+  const LatticeIndex<2> cells(8, 6);
+  constexpr long horizon = 400;
+  for (auto& [name, problem] : ladder::every_variant())
+    for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
+      problem.integrator = integrator;
+      INFO(name << ", " << integrator_name);
+      const auto limit = std::get<analysis::ConditionallyStable<2>>(analysis::patch_limit(problem, cells));
+      const double time_step = 1.01 * limit.critical_time_step;
+      const double expected =
+          std::log(analysis::mode_spectrum(problem, limit.mode.wave_vector, time_step).spectral_radius);
+      const auto patch = periodic_patch<2>(problem, cells);
+      const auto mode = study::critical_mode_displacement<2>(problem, {Boundary::periodic, cells}, patch);
+      const auto fit = study::GrowthRun<2>(problem, patch, mode)(time_step, horizon);
+      CHECK(fit.trend == solver::Trend::growing);
+      CHECK(std::abs(fit.growth_per_step - expected) < growth_tolerance);
+    }
+}
+
+TEST_CASE("rung 6: bisection finds the theory's limit for kernels, lattices, supports and integrators",
+          "[ladder][theory-vs-bisection]") {
+  for (const auto& [lattice, lattice_name] : Names<LatticeKind>::table)
+    for (const auto kernel :
+         {KernelFamily::cubic_spline, KernelFamily::gaussian, KernelFamily::wendland_c2, KernelFamily::sinc_5})
+      for (const double h_over_spacing : {0.93, 1.31, 1.87})
+        for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
+          INFO(name_of(kernel) << " " << lattice_name << " h/spacing " << h_over_spacing << " " << integrator_name);
+          auto problem = ladder::basic_problem(lattice, kernel, h_over_spacing);
+          problem.integrator = integrator;
+          check_bisection(problem, {Boundary::periodic, {8, 8}});
+        }
+}
+
+TEST_CASE("rung 6: bisection finds the theory's limit for every term of the scheme", "[ladder][theory-vs-bisection]") {
+  for (auto& [name, problem] : ladder::every_variant())
+    for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
+      problem.integrator = integrator;
+      INFO(name << ", " << integrator_name);
+      check_bisection(problem, {Boundary::periodic, {6, 5}});
+    }
+}
+
+TEST_CASE("rung 6: the limit of a patch approaches the bulk limit from above as the patch grows",
+          "[ladder][theory-vs-bisection]") {
+  for (const auto& [lattice, lattice_name] : Names<LatticeKind>::table) {
+    INFO(lattice_name);
+    const auto problem = ladder::basic_problem(lattice, KernelFamily::cubic_spline, 1.31);
+    double deficit_before = 1.0;
+    for (const int n : {16, 32, 64}) {
+      INFO("patch " << n);
+      const auto found =
+          study::compare_step<2>(problem, {Boundary::periodic, {n, n}}, {.tolerance = bisection_tolerance});
+      REQUIRE(found.relative_difference());
+      CHECK(*found.relative_difference() < bisection_tolerance);
+      CHECK(*found.run.critical_time_step > *found.bulk_theory * (1.0 - bisection_tolerance));
+      // The wave vectors of a patch are among those of its double; the nearest one is at most half a mesh off: O(1/n²).
+      CHECK(*found.patch_deficit() <= deficit_before);
+      CHECK(*found.patch_deficit() < 10.0 / (n * n));
+      deficit_before = *found.patch_deficit();
+    }
+  }
+}
+
+TEST_CASE("rung 6: bisection on free plates finds the largest eigenvalue of the assembled operator",
+          "[ladder][theory-vs-bisection]") {
+  for (const auto kernel : {KernelFamily::cubic_spline, KernelFamily::gaussian, KernelFamily::wendland_c4})
+    for (const double h_over_spacing : {0.93, 1.31})
+      for (const auto& [normalisation, normalisation_name] : Names<KernelNormalisation>::table)
+        for (const Plane plane : {Plane::strain, Plane::stress}) {
+          INFO(name_of(kernel) << " h/spacing " << h_over_spacing << " normalisation " << normalisation_name << " plane "
+                               << name_of(plane));
+          auto problem = ladder::basic_problem(LatticeKind::square, kernel, h_over_spacing);
+          problem.scheme.kernel_normalisation = normalisation;
+          problem.plane = plane;
+          check_bisection(problem, {Boundary::free, {9, 7}});
+        }
+}
+
+TEST_CASE("rung 6: starting from the theory's mode or from other noise finds the same step",
+          "[ladder][theory-vs-bisection]") {
+  const auto hexagonal = ladder::basic_problem(LatticeKind::hexagonal, KernelFamily::quintic_spline, 1.31);
+  const auto square = ladder::basic_problem(LatticeKind::square, KernelFamily::cubic_spline, 1.31);
+  for (const study::RunOptions& options : {study::RunOptions{.start_from_mode = true},
+                                           study::RunOptions{.noise_seed = 2}, study::RunOptions{.noise_seed = 3}}) {
+    check_bisection(hexagonal, {Boundary::periodic, {8, 6}}, options);
+    check_bisection(square, {Boundary::free, {8, 6}}, options);
+  }
+}
