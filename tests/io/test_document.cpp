@@ -53,6 +53,11 @@ TEST_CASE("CSV of many cases has the keys of all of them and empty cells where a
   CHECK(write(rows, Format::csv) == "a,b,c\n1,x,\n2,,0.5\n");
 }
 
+TEST_CASE("CSV dots every level of nesting and leaves a cell empty for what is not finite", "[fast]") {
+  CHECK(write({{"a", {{"b", {{"c", 1}, {"d", std::numeric_limits<double>::infinity()}}}}}}, Format::csv) ==
+        "a.b.c,a.b.d\n1,\n");
+}
+
 TEST_CASE("CSV quotes separators, quotes and newlines", "[fast]") {
   const Table table{{"k,1"}, {{"say \"h\""}, {"two\nlines"}, {"plain text"}}};
   CHECK(to_csv(table) == "\"k,1\"\n\"say \"\"h\"\"\"\n\"two\nlines\"\nplain text\n");
@@ -72,6 +77,13 @@ TEST_CASE("Markdown of a single object has a row for each key", "[fast]") {
         "| key | value |\n|---|---|\n| mode.branch | p\\|s |\n| steps | 3 |\n");
 }
 
+TEST_CASE("Markdown and LaTeX of many cases have a row for each case", "[fast]") {
+  const Document rows = {{{"a", 1}}, {{"a", 2}}};
+  CHECK(write(rows, Format::markdown) == "| a |\n|---:|\n| 1 |\n| 2 |\n");
+  CHECK(write(rows, Format::latex) ==
+        "\\begin{tabular}{r}\n\\hline\na \\\\\n\\hline\n1 \\\\\n2 \\\\\n\\hline\n\\end{tabular}\n");
+}
+
 TEST_CASE("Markdown escapes what would be markup and aligns columns of numbers to the right", "[fast]") {
   const Table table{{"rule", "Δt"}, {{"*a* <b> `c` \\ |", "1e-3"}, {"two\nlines", ""}}};
   CHECK(to_markdown(table) ==
@@ -87,7 +99,8 @@ TEST_CASE("LaTeX escapes its special characters and needs no package", "[fast]")
 }
 
 TEST_CASE("chosen columns have their own headers and number formats", "[fast]") {
-  const Document rows = {result, {{"critical_time_step", 0.25}, {"critical_mode", {{"branch", "s"}}}}};
+  const Document rows = {
+      result, {{"critical_time_step", 0.25}, {"critical_mode", {{"branch", "s"}}}, {"growth_rate", std::nan("")}}};
   const Table table = select(rows, {{"critical_mode.branch", "branch"},
                                     {"critical_time_step", "limit", "{:.3f}"},
                                     {"growth_rate", "rate", "{:.1e}"},
