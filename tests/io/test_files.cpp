@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -84,8 +85,12 @@ TEST_CASE("writing where no folder is names the folder and the reason", "[fast]"
   CHECK(folder.names() == Names{"file"});
 }
 
-TEST_CASE("a device is never replaced by a file", "[fast]") {
-  CHECK_THROWS_WITH(write_file("/dev/null", "", Existing::replace), "/dev/null: is no regular file");
+TEST_CASE("what is neither file nor folder, such as a pipe or a device, is never replaced by a file", "[fast]") {
+  const ScratchFolder folder;
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(write_file(folder / "pipe", "", Existing::replace),
+                    (folder / "pipe").string() + ": is no regular file");
+  CHECK(std::filesystem::is_fifo(folder / "pipe"));
 }
 
 TEST_CASE("a file that cannot be read is named with the reason", "[fast]") {
