@@ -117,8 +117,7 @@ std::string script_of(const LineFigure& figure) {
              "set border 3 linecolor rgb '#404040'\n"
              "set tics nomirror out scale 0.6\n"
              "set grid linetype 1 linewidth 0.6 linecolor rgb '#D8D8D8'\n"
-             "set key below left vertical maxcols 1 reverse Left samplen 3.5\n"
-             "set datafile missing 'NaN'\n",
+             "set key below left vertical maxcols 1 reverse Left samplen 3.5\n",
              height_of_diagram + height_of_label * labelled) +
          axes(figure) + marks(figure) + curves(figure);
 }

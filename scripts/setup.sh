@@ -6,7 +6,7 @@
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 log=$root/build/setup.log
 packages=(g++ cmake ninja-build libeigen3-dev libboost-dev libfmt-dev catch2 libcli11-dev libtomlplusplus-dev
-  nlohmann-json3-dev gnuplot-nox)
+  nlohmann-json3-dev gnuplot-nox patch)
 
 say() { printf '%s\n' "$*" >&2; }
 

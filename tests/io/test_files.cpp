@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include "io/files.hpp"
+#include "io/scratch_folder.hpp"
+#include "model/errors.hpp"
+
+using namespace sphstab;
+using namespace sphstab::io;
+using Catch::Matchers::Contains;
+using Names = std::vector<std::string>;
+
+namespace {
+
+/// While it lives the system refuses to let a file grow beyond `bytes`, like a disk that is full.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+}  // namespace
+
+TEST_CASE("a file is read back byte for byte", "[fast]") {
+  const ScratchFolder folder;
+  std::string text("zero \0 inside\r\n", 15);
+  text.append(200000, 'x');
+  write_file(folder / "a b.txt", text);
+  CHECK(read_file(folder / "a b.txt") == text);
+  CHECK(folder.names() == Names{"a b.txt"});
+}
+
+TEST_CASE("a file that exists is replaced only if asked", "[fast]") {
+  const ScratchFolder folder;
+  write_file(folder / "a", "old");
+  CHECK_THROWS_WITH(write_file(folder / "a", "new"), (folder / "a").string() + ": exists already");
+  CHECK(read_file(folder / "a") == "old");
+  write_file(folder / "a", "new", Existing::replace);
+  CHECK(read_file(folder / "a") == "new");
+  CHECK(folder.names() == Names{"a"});
+}
+
+TEST_CASE("a file that cannot be written whole does not appear and leaves nothing behind", "[fast]") {
+  const ScratchFolder folder;
+  write_file(folder / "old", "old");
+  {
+    const FullDisk full(1000);
+    CHECK_THROWS_WITH(write_file(folder / "new", std::string(5000, 'x')),
+                      (folder / "new").string() + ": File too large");
+    CHECK_THROWS_AS(write_file(folder / "old", std::string(5000, 'x'), Existing::replace), InvalidInput);
+  }
+  CHECK(folder.names() == Names{"old"});
+  CHECK(read_file(folder / "old") == "old");
+}
+
+TEST_CASE("writing where no folder is names the folder and the reason", "[fast]") {
+  const ScratchFolder folder;
+  write_file(folder / "file", "");
+  CHECK_THROWS_WITH(write_file(folder / "missing/a", ""), Contains("missing: no such folder"));
+  CHECK_THROWS_WITH(write_file(folder / "file/a", ""), Contains("file: is no folder"));
+  CHECK_THROWS_WITH(write_file(folder.path(), "", Existing::replace), Contains("is no regular file"));
+  CHECK_THROWS_WITH(OutputFolder(folder / "missing/a"), Contains("missing: no such folder"));
+  CHECK_THROWS_WITH(OutputFolder(folder / "file/a"), Contains("file: is no folder"));
+  CHECK_THROWS_WITH(OutputFolder(folder / "file", Existing::replace), Contains("file: is no folder"));
+  CHECK(folder.names() == Names{"file"});
+}
+
+TEST_CASE("what is neither file nor folder, such as a pipe or a device, is never replaced by a file", "[fast]") {
+  const ScratchFolder folder;
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(write_file(folder / "pipe", "", Existing::replace),
+                    (folder / "pipe").string() + ": is no regular file");
+  CHECK(std::filesystem::is_fifo(folder / "pipe"));
+}
+
+TEST_CASE("a file that cannot be read is named with the reason", "[fast]") {
+  const ScratchFolder folder;
+  CHECK_THROWS_WITH(read_file(folder / "none"), (folder / "none").string() + ": No such file or directory");
+  CHECK_THROWS_WITH(read_file(folder.path()), folder.path().string() + ": Is a directory");
+}
+
+TEST_CASE("an output folder appears complete on commit and not before", "[fast]") {
+  const ScratchFolder folder;
+  {
+    OutputFolder output(folder / "out/");
+    output.write("index.md", "index");
+    output.write("plate/figure.svg", "figure");
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+    output.commit();
+  }
+  CHECK(folder.names() == Names{"out", "out/index.md", "out/plate", "out/plate/figure.svg"});
+  CHECK(read_file(folder / "out/plate/figure.svg") == "figure");
+}
+
+TEST_CASE("an output folder that is not committed leaves nothing behind", "[fast]") {
+  const ScratchFolder folder;
+  {
+    OutputFolder output(folder / "out");
+    output.write("a/b", "text");
+  }
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("an output folder refuses a folder with files unless it may replace them", "[fast]") {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder / "out");
+  OutputFolder(folder / "out").commit();
+  write_file(folder / "out/kept", "kept");
+  write_file(folder / "out/a", "old");
+  CHECK_THROWS_WITH(OutputFolder(folder / "out"), (folder / "out").string() + ": exists already and is not empty");
+
+  OutputFolder output(folder / "out", Existing::replace);
+  output.write("a", "new");
+  output.write("sub/b", "b");
+  CHECK(read_file(folder / "out/a") == "old");
+  output.commit();
+  CHECK(read_file(folder / "out/a") == "new");
+  CHECK(read_file(folder / "out/kept") == "kept");
+  CHECK(read_file(folder / "out/sub/b") == "b");
+}
+
+TEST_CASE("a commit that cannot place every file places none", "[fast]") {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "out/b");
+  {
+    OutputFolder output(folder / "out", Existing::replace);
+    output.write("a", "a");
+    output.write("b", "a folder is in the way");
+    output.write("c", "c");
+    CHECK_THROWS_WITH(output.commit(), Contains("out/b: is a folder"));
+  }
+  CHECK(folder.names() == Names{"out", "out/b"});
+}
+
+TEST_CASE("an output folder takes each name once", "[fast]") {
+  const ScratchFolder folder;
+  OutputFolder output(folder / "out");
+  output.write("a", "1");
+  CHECK_THROWS_WITH(output.write("a", "2"), Contains("out/a: is written twice"));
+}
