@@ -73,6 +73,18 @@ class MaximumSearch {
   double riesz_bound(double q, double width) const {
     return floor_ + (q - floor_) / std::pow(std::cos(series_.type() * width), 2);
   }
+  /// The same from the second derivative, as the first vanishes at the maximiser.
+  double value_bound(double q, const PhaseBox<Dim>& box) const {
+    return std::min(riesz_bound(q, box.half_width), q + 0.5 * second_derivative_ * std::pow(box.radius(), 2));
+  }
+
+  /// Bounds on the derivatives of q in a unit direction, Bernstein's or the product rule's with those of D.
+  void bound_derivatives(double ceiling) {
+    const double R = series_.euclidean_type();
+    const double G1 = series_.derivative_bound(1), G2 = series_.derivative_bound(2), G3 = series_.derivative_bound(3);
+    second_derivative_ = 2.0 * std::min(R * R * (ceiling - floor_), form_norm_ * G1 * G1 + largest_image_ * G2);
+    third_derivative_ = std::min(4.0 * R * R * R * (ceiling - floor_), 2.0 * largest_image_ * G3 + 6.0 * form_norm_ * G1 * G2);
+  }
 
   std::vector<LiveBox<Dim>> coarse_survivors() {
     const ZoneGrid<Dim> grid(series_, form_, grid_resolution);
@@ -82,16 +94,19 @@ class MaximumSearch {
     // |Q D| at the maximiser bounds what a rounding error of D does to q.
     if (floor_ == 0.0) largest_image_ = std::sqrt(form_norm_ * ceiling);
     margin_ = (2.0 * largest_image_ + form_norm_ * series_.rounding()) * series_.rounding();
-    third_derivative_ = 4.0 * std::pow(series_.euclidean_type(), 3) * (ceiling - floor_);
+    bound_derivatives(ceiling);
 
     best_ = *peak;
     best_phases_ = grid.box(static_cast<std::size_t>(peak - q.begin())).centre;
     climb(best_phases_);
     if (floor_ < 0.0) climb_from_long_waves();
     std::vector<LiveBox<Dim>> live;
-    for (std::size_t i = 0; i < q.size(); ++i)
-      if (const double bound = riesz_bound(q[i] + margin_, grid.half_width()); bound >= best_)
-        live.push_back({grid.box(i), bound});
+    const double least = best_ - std::max(value_bound(best_, grid.box(0)) - best_, 0.0);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      if (q[i] < least) continue;
+      const PhaseBox<Dim> box = grid.box(i);
+      if (const double bound = value_bound(q[i] + margin_, box); bound >= best_) live.push_back({box, bound});
+    }
     return live;
   }
 
@@ -137,8 +152,10 @@ class MaximumSearch {
     if (here.value > best_) best_ = here.value, best_phases_ = phases;
     const double mu = -here.curvature.maxCoeff();
     if (mu <= 0.0) return;
+    const double bound = here.value + margin_ + here.slope.squaredNorm() / mu;
+    if (bound > best_ * (1.0 + target_enclosure)) return;
     balls_.push_back({phases, 1.5 * mu / third_derivative_});
-    upper_ = std::max(upper_, here.value + margin_ + here.slope.squaredNorm() / mu);
+    upper_ = std::max(upper_, bound);
   }
 
   bool is_safe(const PhaseBox<Dim>& box) const {
@@ -169,8 +186,8 @@ class MaximumSearch {
       return;
     }
     const Expansion<Dim> q = expand(live.box.centre);
-    const double riesz = riesz_bound(q.value + margin_, live.box.half_width);
-    const double bound = std::min({live.bound, riesz, second_order_bound(q, live.box)});
+    const double bound =
+        std::min({live.bound, value_bound(q.value + margin_, live.box), second_order_bound(q, live.box)});
     if (bound <= best_ * (1.0 + target_enclosure)) {
       upper_ = std::max(upper_, bound);
       return;
@@ -190,6 +207,7 @@ class MaximumSearch {
   double floor_ = 0.0;          ///< m ≤ q
   double largest_image_ = 0.0;  ///< bound on |Q D| where it matters
   double margin_ = 0.0;         ///< bound on the rounding error of q
+  double second_derivative_ = 0.0;
   double third_derivative_ = 0.0;
   double best_ = 0.0;
   double upper_ = 0.0;
