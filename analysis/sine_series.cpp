@@ -47,7 +47,8 @@ SineSeries<Dim>::SineSeries(std::vector<SineTerm<Dim>> terms) : terms_(std::move
       of_w += w * w.transpose() * (std::pow(n.norm(), order) / size);
       of_n += n * n.transpose() * (std::pow(n.norm(), order - 2) * size);
     }
-    derivative_bounds_[static_cast<std::size_t>(order - 1)] = std::sqrt(largest_eigenvalue(of_w) * largest_eigenvalue(of_n));
+    derivative_bounds_[static_cast<std::size_t>(order - 1)] =
+        std::sqrt(largest_eigenvalue(of_w) * largest_eigenvalue(of_n));
   }
   // Per term: reach products of rotations (2 roundings each) on each axis, Dim products of them, one with the weight;
   // then as many additions as terms. Unit roundoff is ε/2.

@@ -51,7 +51,8 @@ class SineSeries {
   /// Bernstein's for wide kernels, whose outermost neighbours weigh little.
   double derivative_bound(int order) const { return derivative_bounds_[static_cast<std::size_t>(order - 1)]; }
   /// Bound on the rounding error of a computed value (Euclidean norm): every term carries the errors of a product of
-  /// tabulated powers of e^{iθ} and of its addition to the sum. A derivative's is at most R times it, a second one's R².
+  /// tabulated powers of e^{iθ} and of its addition to the sum. A derivative's is at most R times it, a second one's
+  /// R².
   double rounding() const { return rounding_; }
 
  private:

@@ -66,7 +66,8 @@ class ZeroSearch {
     return std::sqrt(squares) + third_derivative_ * r;
   }
 
-  /// The zero to which Newton's iteration from `start` converges without leaving the ball of radius r, if it is certain.
+  /// The zero to which Newton's iteration from `start` converges without leaving the ball of radius r, if it is
+  /// certain.
   std::optional<Vector<Dim>> newton(const Vector<Dim>& start, double r) const {
     Vector<Dim> phases = start;
     for (int step = 0; step < newton_steps; ++step) {

@@ -50,6 +50,8 @@ inline Problem<2> problem(const nlohmann::json& reference) {
 }
 
 /// The measure of the reference cases: |difference| / max(1, |value|).
-inline double difference(double ours, double theirs) { return std::abs(ours - theirs) / std::max(1.0, std::abs(theirs)); }
+inline double difference(double ours, double theirs) {
+  return std::abs(ours - theirs) / std::max(1.0, std::abs(theirs));
+}
 
 }  // namespace sphstab::golden

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -22,7 +23,8 @@ constexpr double spectrum_tolerance = 1e-13;
 /// The accelerations by Zhang's Eqs. 7 to 9, particle by particle, each sum divided by its N.
 Eigen::VectorXd acceleration(const Problem<2>& problem, const Body<2>& body, const Eigen::VectorXd& s) {
   const bool normalised = problem.scheme.kernel_normalisation == KernelNormalisation::sum;
-  const double E = problem.material.young_modulus(), mu = problem.material.poisson_ratio(), rho = problem.material.density();
+  const double E = problem.material.young_modulus(), mu = problem.material.poisson_ratio(),
+               rho = problem.material.density();
   const double G = E / (1.0 + mu), gamma = mu * G / (problem.plane == Plane::strain ? 1.0 - 2.0 * mu : 1.0 - mu);
   std::vector<double> N;
   std::vector<Tensor<2>> stress;
@@ -47,7 +49,8 @@ Eigen::VectorXd acceleration(const Problem<2>& problem, const Body<2>& body, con
   Eigen::VectorXd result = Eigen::VectorXd::Zero(s.size());
   for (std::size_t a = 0; a < body.position.size(); ++a)
     for_neighbours(a, [&](std::size_t b, double, const Vector<2>& dW) {
-      result.segment<2>(2 * static_cast<int>(a)) += rho * body.volume[b] / (rho * rho) * (stress[a] + stress[b]) * dW / N[a];
+      result.segment<2>(2 * static_cast<int>(a)) +=
+          rho * body.volume[b] / (rho * rho) * (stress[a] + stress[b]) * dW / N[a];
     });
   return result;
 }
@@ -79,7 +82,8 @@ TEST_CASE("plate limits agree with the reference, with and without normalisation
   for (const auto& reference : references) {
     INFO(reference["id"]);
     const auto problem = golden::problem(reference);
-    const auto limit = dense_body_limit(problem, free_plate(problem, golden::numbers<LatticeIndex<2>>(reference["plate"])));
+    const auto limit =
+        dense_body_limit(problem, free_plate(problem, golden::numbers<LatticeIndex<2>>(reference["plate"])));
     const double expected = reference["expect"]["critical_time_step"], tolerance = reference["tolerance"];
     CHECK(std::abs(limit.critical_time_step - expected) < tolerance * expected);
     CHECK(limit.bracket.low <= limit.critical_time_step);
@@ -98,7 +102,8 @@ TEST_CASE("a periodic patch has exactly the frequencies of its wave vectors", "[
       std::vector<double> expected;
       for (int i = 0; i < cells[0]; ++i)
         for (int j = 0; j < cells[1]; ++j) {
-          const Vector<2> k = problem.lattice.reciprocal_vectors() * Vector<2>(static_cast<double>(i) / cells[0], static_cast<double>(j) / cells[1]);
+          const Vector<2> k = problem.lattice.reciprocal_vectors() *
+                              Vector<2>(static_cast<double>(i) / cells[0], static_cast<double>(j) / cells[1]);
           const Vector<2> squares = dynamical_matrix(problem, k).selfadjointView<Eigen::Lower>().eigenvalues();
           expected.insert(expected.end(), squares.begin(), squares.end());
         }
@@ -115,7 +120,8 @@ TEST_CASE("a periodic patch has exactly the frequencies of its wave vectors", "[
 }
 
 TEST_CASE("normalised free edges need a smaller step than the bulk", "[fast]") {
-  // theory.md §2: 0.837 x the normalised bulk value at H = Δ, 0.735 x at 1.5 Δ; the plain plate 0.3 to 4 % above the bulk.
+  // theory.md §2: 0.837 x the normalised bulk value at H = Δ, 0.735 x at 1.5 Δ; the plain plate 0.3 to 4 % above the
+  // bulk.
   struct Edge {
     double h, ratio;
   };

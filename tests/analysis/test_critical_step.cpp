@@ -112,11 +112,13 @@ TEST_CASE("just below the limit no mode of a scan grows, at the critical mode on
 
 TEST_CASE("the step for a tolerated growth has that growth over the zone", "[fast]") {
   for (const double e : {0.1, -0.5})
-    for (const double growth : {1e-6, 1e-2}) {
+    for (const double growth : {1e-4, 1e-2}) {
       const auto problem = prestressed(e);
       const auto step = step_for_growth(problem, growth);
       REQUIRE(step);
-      constexpr double conditioning = 1e-9;  // of the radius near a double eigenvalue, dρ/dΔt ~ 1/growth
+      // Near a double eigenvalue growth ~ √(Δt/Δt_c − 1), so that roundings of Δt enter as ε / growth², here ten of
+      // them.
+      const double conditioning = 2e-15 / (growth * growth);
       CHECK(zone_spectral_radius(problem, *step) - 1.0 == Approx(growth).epsilon(conditioning));
     }
   CHECK_FALSE(step_for_growth(prestressed(-0.5), 0.0));
@@ -124,12 +126,13 @@ TEST_CASE("the step for a tolerated growth has that growth over the zone", "[fas
 }
 
 TEST_CASE("tension shortens the step by the stiffening of the equation of state", "[fast]") {
-  // Equibiaxial e, plane strain: ω_L² ∝ [γ + G + 2 (G + 2γ) e] exp(2·2e), Zhang's G = 1, γ = 0.75 (theory.md §2: x0.724 and
-  // x0.406 at 10 % and 30 %).
+  // Equibiaxial e, plane strain: ω_L² ∝ [γ + G + 2 (G + 2γ) e] exp(2·2e), Zhang's G = 1, γ = 0.75 (theory.md §2: x0.724
+  // and x0.406 at 10 % and 30 %).
   const double unstressed = conditional(bulk_limit(prestressed(0.0))).critical_time_step;
   for (const double e : {0.1, 0.3, -0.1}) {
     const double factor = std::sqrt(1.75 / ((1.75 + 5.0 * e) * std::exp(4.0 * e)));
-    CHECK(conditional(bulk_limit(prestressed(e))).critical_time_step == Approx(factor * unstressed).epsilon(gaussian_consistency));
+    CHECK(conditional(bulk_limit(prestressed(e))).critical_time_step ==
+          Approx(factor * unstressed).epsilon(gaussian_consistency));
   }
   auto frozen = prestressed(0.3);
   frozen.scheme.momentum_density = MomentumDensity::frozen;
@@ -158,14 +161,14 @@ TEST_CASE("uniaxial compression grows across the compressed direction only as fa
   REQUIRE(std::holds_alternative<NeverStable<2>>(unstable));
   const double rate = std::get<NeverStable<2>>(unstable).growth_rate;
   double scanned = 0.0;
-  for (int i = 0; i < 400; ++i)
-    for (int j = 0; j < 400; ++j) {
-      const Vector<2> k = problem.lattice.reciprocal_vectors() * Vector<2>(i, j) / 400.0;
+  for (int i = 0; i < 120; ++i)
+    for (int j = 0; j < 120; ++j) {
+      const Vector<2> k = problem.lattice.reciprocal_vectors() * Vector<2>(i, j) / 120.0;
       const auto limit = mode_limit(problem, k);
       if (const auto* mode = std::get_if<NeverStable<2>>(&limit)) scanned = std::max(scanned, mode->growth_rate);
     }
   CHECK(scanned <= rate * (1.0 + rounding_tolerance));
-  CHECK(scanned > rate * (1.0 - 1e-3));  // the grid misses the maximum by at most (2π/800)² σ² of it
+  CHECK(scanned > rate * (1.0 - 1e-2));  // the grid is off by at most 2π/240 in phase, (2π/240)² R² of ω² with R < 4
   problem.scheme.damping = Damping{0.5};
   const double damped = std::get<NeverStable<2>>(bulk_limit(problem)).growth_rate;
   CHECK(damped * damped + 0.5 * damped == Approx(rate * rate).epsilon(rounding_tolerance));

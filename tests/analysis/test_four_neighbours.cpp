@@ -17,7 +17,8 @@ namespace {
 
 /// A dozen roundings.
 constexpr double rounding_tolerance = 1e-14;
-/// The square roots of A.8 in complex double arithmetic lose half the digits where two eigenvalues meet; here they do not.
+/// The square roots of A.8 in complex double arithmetic lose half the digits where two eigenvalues meet; here they do
+/// not.
 constexpr double eigenvalue_tolerance = 1e-12;
 
 struct Appendix {
@@ -73,7 +74,8 @@ TEST_CASE("the eigenvalues of four neighbours are A.8 as corrected", "[fast]") {
   }
 }
 
-TEST_CASE("the exact limit of a mode of four neighbours is the second entry of A.9, its first the transverse one", "[fast]") {
+TEST_CASE("the exact limit of a mode of four neighbours is the second entry of A.9, its first the transverse one",
+          "[fast]") {
   const Appendix paper(Plane::stress);
   const double sines = std::pow(std::sin(K), 2) + std::pow(std::sin(Q), 2);
   const auto limit = std::get<ConditionallyStable<2>>(mode_limit(paper.problem, Vector<2>(K, Q)));

@@ -71,7 +71,8 @@ TEST_CASE("long waves see the consistency matrix, with third-order error", "[fas
 TEST_CASE("the staggered lattice stretches the gradient differently along its axes", "[fast]") {
   // theory.md §1: L = diag(.98560, .97856), square 1.01310 I, cubic spline with h = Δp; five digits are printed.
   constexpr double printed = 5.1e-6;
-  const auto staggered = GradientSymbol<2>(problem_2d(LatticeKind::staggered, KernelFamily::cubic_spline, 1.0)).consistency();
+  const auto staggered =
+      GradientSymbol<2>(problem_2d(LatticeKind::staggered, KernelFamily::cubic_spline, 1.0)).consistency();
   CHECK(std::abs(staggered(0, 0) - 0.98560) < printed);
   CHECK(std::abs(staggered(1, 1) - 0.97856) < printed);
   CHECK(std::abs(staggered(0, 1)) < rounding_tolerance);

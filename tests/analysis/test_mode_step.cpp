@@ -21,7 +21,8 @@ struct Case {
   double omega_squared;
 
   ModeStep step() const {
-    return {integrator, damping_rate > 0.0 ? std::optional<Damping>(Damping{damping_rate}) : std::nullopt, omega_squared};
+    return {integrator, damping_rate > 0.0 ? std::optional<Damping>(Damping{damping_rate}) : std::nullopt,
+            omega_squared};
   }
 
   /// The step as `Integrator` documents it: images of (1, 0) and (0, 1) in (v, s).
@@ -106,7 +107,8 @@ TEST_CASE("limits have the closed forms derived by hand", "[fast]") {
     CHECK_FALSE(Case{integrator, 0.0, 0.0}.step().limit());
   }
   // Leapfrog ω²Δt² + 2cΔt ≤ 4; modes without restoring force: cΔt ≤ 2, verlet (half-steps) cΔt ≤ 4.
-  CHECK(*Case{Integrator::leapfrog, 0.7, 9.0}.step().limit() == Approx(4.0 / (0.7 + std::sqrt(0.49 + 36.0))).epsilon(few_ulps));
+  CHECK(*Case{Integrator::leapfrog, 0.7, 9.0}.step().limit() ==
+        Approx(4.0 / (0.7 + std::sqrt(0.49 + 36.0))).epsilon(few_ulps));
   CHECK(*Case{Integrator::leapfrog, 0.8, 0.0}.step().limit() == Approx(2.5).epsilon(few_ulps));
   CHECK(*Case{Integrator::verlet, 0.8, 0.0}.step().limit() == Approx(5.0).epsilon(few_ulps));
   // Verlet, overdamped enough (ω²a²(4−a) < 2c²(8−4a+a²) for all a = cΔt): nothing binds before cΔt = 4.
