@@ -15,7 +15,8 @@ using ComplexMatrix = Eigen::MatrixXcd;
 template <int Dim>
 std::vector<std::string> state_names(const Problem<Dim>& problem);
 
-/// M(k) of d²s/dt² = −M s, 1 / time² (theory.md §2; includes the base state of `density_in_momentum` equation-of-state).
+/// M(k) of d²s/dt² = −M s, 1 / time² (theory.md §2; includes the base state of `density_in_momentum`
+/// equation-of-state).
 template <int Dim>
 Tensor<Dim> dynamical_matrix(const Problem<Dim>& problem, const Vector<Dim>& wave_vector);
 

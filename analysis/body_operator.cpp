@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,9 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
+/// Sums of pair weights below this, relative to the largest weight, are the rounding of zero (ten times a few dozen ε).
+constexpr double cancelled = 1e-13;
+
 /// N_a for each particle.
 template <int Dim>
 std::vector<double> normalisation(const Problem<Dim>& problem, const Body<Dim>& body) {
@@ -20,7 +24,8 @@ std::vector<double> normalisation(const Problem<Dim>& problem, const Body<Dim>& 
   if (problem.scheme.kernel_normalisation == KernelNormalisation::none) return N;
   for (std::size_t a = 0; a < N.size(); ++a) {
     N[a] = body.volume[a] * problem.kernel.value(0.0);
-    for (auto p = static_cast<std::size_t>(body.pairs.first[a]); p < static_cast<std::size_t>(body.pairs.first[a + 1]); ++p)
+    for (auto p = static_cast<std::size_t>(body.pairs.first[a]); p < static_cast<std::size_t>(body.pairs.first[a + 1]);
+         ++p)
       N[a] += body.volume[static_cast<std::size_t>(body.pairs.neighbour[p])] *
               problem.kernel.value(body.pairs.separation[p].norm());
   }
@@ -31,6 +36,7 @@ std::vector<double> normalisation(const Problem<Dim>& problem, const Body<Dim>& 
 template <int Dim>
 SparseMatrix strain_rows(const Problem<Dim>& problem, const Body<Dim>& body) {
   std::vector<Eigen::Triplet<double>> entries;
+  double largest = 0.0;
   for (int a = 0; a < body.size(); ++a)
     for (auto p = static_cast<std::size_t>(body.pairs.first[static_cast<std::size_t>(a)]);
          p < static_cast<std::size_t>(body.pairs.first[static_cast<std::size_t>(a) + 1]); ++p) {
@@ -39,6 +45,7 @@ SparseMatrix strain_rows(const Problem<Dim>& problem, const Body<Dim>& body) {
       const double distance = r_ab.norm();
       const Vector<Dim> weight =
           body.volume[static_cast<std::size_t>(b)] * problem.kernel.slope(distance) / distance * r_ab;
+      largest = std::max(largest, weight.norm());
       for (int i = 0; i < Dim; ++i)
         for (int j = 0; j < Dim; ++j)
           for (const int row : {(a * Dim + i) * Dim + j, (a * Dim + j) * Dim + i}) {
@@ -48,21 +55,25 @@ SparseMatrix strain_rows(const Problem<Dim>& problem, const Body<Dim>& body) {
     }
   SparseMatrix B(body.size() * Dim * Dim, body.size() * Dim);
   B.setFromTriplets(entries.begin(), entries.end());
+  B.prune(largest, cancelled);  // the sums of interior particles, and of images that outweigh each other
   return B;
 }
 
 /// Bᵀ (V C / N) B / ρ0 = (N V) K, symmetric.
 template <int Dim>
 Eigen::MatrixXd weighted_operator(const Problem<Dim>& problem, const Body<Dim>& body, const std::vector<double>& N) {
-  if (problem.scheme.momentum_density == MomentumDensity::equation_of_state && !problem.displacement_gradient.isZero(0.0))
+  if (problem.scheme.momentum_density == MomentumDensity::equation_of_state &&
+      !problem.displacement_gradient.isZero(0.0))
     throw InvalidInput(
-        "density_in_momentum: equation-of-state with a displacement_gradient is for infinite lattices, bodies take frozen");
+        "density_in_momentum: equation-of-state with a displacement_gradient is for infinite lattices, bodies take "
+        "frozen");
   const LameConstants lame = problem.material.lame(problem.plane);
   std::vector<Eigen::Triplet<double>> entries;
   for (int a = 0; a < body.size(); ++a) {
     const auto index = static_cast<std::size_t>(a);
     const double factor = body.volume[index] / (N[index] * problem.material.density());
-    for (int ij = 0; ij < Dim * Dim; ++ij) entries.emplace_back(a * Dim * Dim + ij, a * Dim * Dim + ij, factor * 2.0 * lame.shear_modulus);
+    for (int ij = 0; ij < Dim * Dim; ++ij)
+      entries.emplace_back(a * Dim * Dim + ij, a * Dim * Dim + ij, factor * 2.0 * lame.shear_modulus);
     for (int i = 0; i < Dim; ++i)
       for (int j = 0; j < Dim; ++j)
         entries.emplace_back((a * Dim + i) * Dim + i, (a * Dim + j) * Dim + j, factor * lame.lambda);

@@ -7,7 +7,8 @@
 namespace sphstab::analysis {
 
 /// The operator K of a finite body, d²s/dt² = −K s, s = (s_1, s_2, …) with the components of a particle adjacent:
-///   K = N⁻¹ B* C N⁻¹ B / ρ0, B the sum of Zhang's Eq. 9 (strain of each particle), C σ = 2G ε + γ tr ε, B* the adjoint of
+///   K = N⁻¹ B* C N⁻¹ B / ρ0, B the sum of Zhang's Eq. 9 (strain of each particle), C σ = 2G ε + γ tr ε, B* the adjoint
+///   of
 /// B under the particle volumes (minus the sum of Eq. 7), N = 1 or the kernel normalisation V Σ W, W(0) included.
 /// Dense: for bodies of up to about a thousand particles. Throws InvalidInput for `density_in_momentum`
 /// equation-of-state about a strained state. Tested in tests/analysis/test_body_operator.cpp.

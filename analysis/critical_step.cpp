@@ -181,8 +181,8 @@ double symbol_maximum(const Problem<Dim>& problem) {
   return std::sqrt(zone_maximum<Dim>(GradientSymbol<Dim>(problem).series(), Tensor<Dim>::Identity()).value);
 }
 
-// At a fixed Δt the trace of a mode is linear in ω² and its determinant does not depend on it, so that the spectral radius
-// is largest at one of the two ends of the range of ω².
+// At a fixed Δt the trace of a mode is linear in ω² and its determinant does not depend on it, so that the spectral
+// radius is largest at one of the two ends of the range of ω².
 
 template <int Dim>
 double zone_spectral_radius(const Problem<Dim>& problem, double time_step) {
@@ -220,11 +220,13 @@ ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem) {
   for (const auto& phases : zeros.phases)
     modes.wave_vectors.push_back(in_first_zone<Dim>(problem.lattice.reciprocal_vectors(), symbol.wave_vector(phases)));
   const double tolerance = same_component * problem.lattice.reciprocal_vectors().norm();
-  std::sort(modes.wave_vectors.begin(), modes.wave_vectors.end(), [&](const Vector<Dim>& left, const Vector<Dim>& right) {
-    double difference = left.norm() - right.norm();
-    for (int axis = 0; axis < Dim && std::abs(difference) <= tolerance; ++axis) difference = left[axis] - right[axis];
-    return difference < 0.0;
-  });
+  std::sort(modes.wave_vectors.begin(), modes.wave_vectors.end(),
+            [&](const Vector<Dim>& left, const Vector<Dim>& right) {
+              double difference = left.norm() - right.norm();
+              for (int axis = 0; axis < Dim && std::abs(difference) <= tolerance; ++axis)
+                difference = left[axis] - right[axis];
+              return difference < 0.0;
+            });
   return modes;
 }
 

@@ -24,8 +24,8 @@ struct CriticalMode {
   double omega;  ///< angular frequency in continuous time, undamped; of an unstable mode its growth rate
 };
 
-/// Stable up to `critical_time_step`, the largest Δt such that no smaller one grows. The formulas are those of ModeStep at
-/// the largest ω². Tested in tests/analysis/test_critical_step.cpp.
+/// Stable up to `critical_time_step`, the largest Δt such that no smaller one grows. The formulas are those of ModeStep
+/// at the largest ω². Tested in tests/analysis/test_critical_step.cpp.
 template <int Dim>
 struct ConditionallyStable {
   double critical_time_step;
@@ -54,8 +54,8 @@ StepLimit<Dim> bulk_limit(const Problem<Dim>& problem);
 template <int Dim>
 StepLimit<Dim> mode_limit(const Problem<Dim>& problem, const Vector<Dim>& wave_vector);
 
-/// The limit over Zhang's modes (Eq. 13): k = (mπ/(MΔp), lπ/(LΔp)), m = 1…M, l = 1…L. Throws InvalidInput (`box`) unless
-/// every count is at least 1; so does `patch_limit` (`patch`).
+/// The limit over Zhang's modes (Eq. 13): k = (mπ/(MΔp), lπ/(LΔp)), m = 1…M, l = 1…L. Throws InvalidInput (`box`)
+/// unless every count is at least 1; so does `patch_limit` (`patch`).
 template <int Dim>
 StepLimit<Dim> paper_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& box);
 
@@ -77,13 +77,13 @@ double zone_spectral_radius(const Problem<Dim>& problem, double time_step);
 template <int Dim>
 std::optional<double> step_for_growth(const Problem<Dim>& problem, double growth_per_step);
 
-/// Zhang's Eq. 15, Δt = ρ/|mW'(Δ)| √(ρ/(2γ+3G)): sufficient for four neighbours, printed for every kernel (errata.md Z4,
-/// Z5). Nothing where W'(Δp) = 0 or the lattice is not square.
+/// Zhang's Eq. 15, Δt = ρ/|mW'(Δ)| √(ρ/(2γ+3G)): sufficient for four neighbours, printed for every kernel (errata.md
+/// Z4, Z5). Nothing where W'(Δp) = 0 or the lattice is not square.
 template <int Dim>
 std::optional<double> published_bound(const Problem<Dim>& problem);
 
-/// The zero-energy modes: every k of the first Brillouin zone with D(k) = 0, Γ excluded, each class of equivalent k once
-/// (on the boundary of the zone the one with the largest first component, then second), shortest first.
+/// The zero-energy modes: every k of the first Brillouin zone with D(k) = 0, Γ excluded, each class of equivalent k
+/// once (on the boundary of the zone the one with the largest first component, then second), shortest first.
 template <int Dim>
 struct ZeroEnergyModes {
   std::vector<Vector<Dim>> wave_vectors;

@@ -13,10 +13,10 @@ namespace sphstab::analysis {
 /// Tested in tests/analysis/test_lattice_sums.cpp.
 template <int Dim>
 struct LatticeSums {
-  Vector<Dim> A;      ///< 1 / length
-  Tensor<Dim> B;      ///< 1 / length²
-  double beta_sum;    ///< dimensionless; Gray's β is ε̃ times it
-  Tensor<Dim> f;      ///< 1 / length²
+  Vector<Dim> A;    ///< 1 / length
+  Tensor<Dim> B;    ///< 1 / length²
+  double beta_sum;  ///< dimensionless; Gray's β is ε̃ times it
+  Tensor<Dim> f;    ///< 1 / length²
   int neighbours;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/sine_series.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +20,12 @@ struct Rotation {
   }
 };
 
+template <int Dim>
+double largest_eigenvalue(const Tensor<Dim>& symmetric) {
+  Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver;
+  return solver.computeDirect(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[Dim - 1];
+}
+
 }  // namespace
 
 template <int Dim>
@@ -30,6 +37,18 @@ SineSeries<Dim>::SineSeries(std::vector<SineTerm<Dim>> terms) : terms_(std::move
     type_ = std::max(type_, static_cast<double>(term.frequency.cwiseAbs().sum()));
     euclidean_type_ = std::max(euclidean_type_, term.frequency.template cast<double>().norm());
     weights += term.coefficient.norm();
+  }
+  for (int order = 1; order <= 3; ++order) {
+    Tensor<Dim> of_w = Tensor<Dim>::Zero(), of_n = Tensor<Dim>::Zero();
+    for (const auto& [frequency, w] : terms_) {
+      const Vector<Dim> n = frequency.template cast<double>();
+      const double size = w.norm();
+      if (size == 0.0) continue;
+      of_w += w * w.transpose() * (std::pow(n.norm(), order) / size);
+      of_n += n * n.transpose() * (std::pow(n.norm(), order - 2) * size);
+    }
+    derivative_bounds_[static_cast<std::size_t>(order - 1)] =
+        std::sqrt(largest_eigenvalue(of_w) * largest_eigenvalue(of_n));
   }
   // Per term: reach products of rotations (2 roundings each) on each axis, Dim products of them, one with the weight;
   // then as many additions as terms. Unit roundoff is ε/2.

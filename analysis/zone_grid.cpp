@@ -41,7 +41,8 @@ struct Partial {
   Row imaginary;
 };
 
-/// Sums one axis, the innermost that is still frequencies −reach … reach (`inner` points inside it, `outer` rows outside).
+/// Sums one axis, the innermost that is still frequencies −reach … reach (`inner` points inside it, `outer` rows
+/// outside).
 Partial sum_axis(const Partial& in, std::size_t outer, int reach, std::size_t inner, const AngleTable& table) {
   const std::size_t points = table.points;
   Partial out{Row(outer * points * inner), Row(outer * points * inner)};
@@ -79,7 +80,9 @@ Row sum_last_axis(const Partial& in, int reach, std::size_t inner, const AngleTa
 template <int Dim>
 Row tabulate(const SineSeries<Dim>& series, int i, std::size_t cells) {
   const auto& reach = series.reach();
-  const auto frequencies = [&](int axis) { return static_cast<std::size_t>((axis == Dim - 1 ? 1 : 2) * reach[axis] + 1); };
+  const auto frequencies = [&](int axis) {
+    return static_cast<std::size_t>((axis == Dim - 1 ? 1 : 2) * reach[axis] + 1);
+  };
   std::size_t size = 1;
   for (int axis = 0; axis < Dim; ++axis) size *= frequencies(axis);
   Partial partial{Row(size), Row(size)};
@@ -102,12 +105,12 @@ Row tabulate(const SineSeries<Dim>& series, int i, std::size_t cells) {
 }  // namespace
 
 template <int Dim>
-std::vector<PhaseBox<Dim>> PhaseBox<Dim>::children() const {
-  std::vector<PhaseBox> boxes;
-  for (unsigned corner = 0; corner < (1u << Dim); ++corner) {
-    PhaseBox child{centre, 0.5 * half_width};
-    for (int axis = 0; axis < Dim; ++axis) child.centre[axis] += (corner >> axis & 1u ? 0.5 : -0.5) * half_width;
-    boxes.push_back(child);
+std::array<PhaseBox<Dim>, 1u << Dim> PhaseBox<Dim>::children() const {
+  std::array<PhaseBox, 1u << Dim> boxes;
+  for (unsigned corner = 0; corner < boxes.size(); ++corner) {
+    boxes[corner] = {centre, 0.5 * half_width};
+    for (int axis = 0; axis < Dim; ++axis)
+      boxes[corner].centre[axis] += (corner >> axis & 1u ? 0.5 : -0.5) * half_width;
   }
   return boxes;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "analysis/sine_series.hpp"
@@ -15,11 +17,12 @@ struct PhaseBox {
 
   double radius() const { return half_width * std::sqrt(static_cast<double>(Dim)); }
   /// The cubes of half the width, 2^Dim of them.
-  std::vector<PhaseBox> children() const;
+  std::array<PhaseBox, 1u << Dim> children() const;
 };
 
-/// The half zone θ ∈ [0, 2π)^(Dim−1) × [0, π] cut into cells^Dim / 2 boxes, and D · Q D at the centre of each, from tables
-/// of multiples of one angle: one sum per axis, no trigonometric call per box. D is odd, so half a zone tells all.
+/// The half zone θ ∈ [0, 2π)^(Dim−1) × [0, π] cut into cells^Dim / 2 boxes, and D · Q D at the centre of each, from
+/// tables of multiples of one angle: one sum per axis, no trigonometric call per box. D is odd, so half a zone tells
+/// all.
 template <int Dim>
 class ZoneGrid {
  public:

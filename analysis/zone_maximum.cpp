@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "analysis/zone_grid.hpp"
@@ -20,7 +21,9 @@ constexpr double target_enclosure = 1e-13;
 constexpr int term_budget = 400000;
 /// Steps of the Newton iteration are cut to this over R.
 constexpr double longest_step = 0.3;
-constexpr int newton_steps = 30;
+constexpr int newton_steps = 60;
+/// A step that promises less than this of q is no longer taken.
+constexpr double negligible_gain = 1e-16;
 /// Where the climbs from long waves begin to be indistinguishable from Γ.
 constexpr double shortest_start = 1e-3;
 
@@ -31,6 +34,8 @@ struct Expansion {
   Tensor<Dim> axes;  ///< columns
   Vector<Dim> slope;
   Vector<Dim> curvature;  ///< ascending
+  double first_norm;      ///< of the derivatives of D
+  double second_norm;
 };
 
 /// Phases within `radius` of `centre` (Euclidean) where q is at most the bound that went into `upper`.
@@ -71,7 +76,27 @@ class MaximumSearch {
  private:
   /// The bound on q at the maximiser if it is within `width` (max norm) of a point of value q.
   double riesz_bound(double q, double width) const {
-    return floor_ + (q - floor_) / std::pow(std::cos(series_.type() * width), 2);
+    const double cosine = std::cos(series_.type() * width);
+    return floor_ + (q - floor_) / (cosine * cosine);
+  }
+  /// The same from the second derivative, as the first vanishes at the maximiser.
+  double value_bound(double q, const PhaseBox<Dim>& box) const {
+    return std::min(riesz_bound(q, box.half_width), q + 0.5 * second_derivative_ * box.radius() * box.radius());
+  }
+
+  /// Bounds on the derivatives of q in a unit direction, Bernstein's or the product rule's with those of D.
+  void bound_derivatives(double ceiling) {
+    const double R = series_.euclidean_type();
+    const double G1 = series_.derivative_bound(1), G2 = series_.derivative_bound(2), G3 = series_.derivative_bound(3);
+    second_derivative_ = 2.0 * std::min(R * R * (ceiling - floor_), form_norm_ * G1 * G1 + largest_image_ * G2);
+    third_derivative_ =
+        std::min(4.0 * R * R * R * (ceiling - floor_), 2.0 * largest_image_ * G3 + 6.0 * form_norm_ * G1 * G2);
+  }
+
+  /// Bound on the third derivative within r of an expansion: there |∂²D| and |∂D| grow from their values at its centre.
+  double third_derivative(const Expansion<Dim>& q, double r) const {
+    const double G3 = series_.derivative_bound(3), second = q.second_norm + G3 * r, first = q.first_norm + second * r;
+    return std::min(third_derivative_, 2.0 * largest_image_ * G3 + 6.0 * form_norm_ * first * second);
   }
 
   std::vector<LiveBox<Dim>> coarse_survivors() {
@@ -82,16 +107,19 @@ class MaximumSearch {
     // |Q D| at the maximiser bounds what a rounding error of D does to q.
     if (floor_ == 0.0) largest_image_ = std::sqrt(form_norm_ * ceiling);
     margin_ = (2.0 * largest_image_ + form_norm_ * series_.rounding()) * series_.rounding();
-    third_derivative_ = 4.0 * std::pow(series_.euclidean_type(), 3) * (ceiling - floor_);
+    bound_derivatives(ceiling);
 
     best_ = *peak;
     best_phases_ = grid.box(static_cast<std::size_t>(peak - q.begin())).centre;
     climb(best_phases_);
     if (floor_ < 0.0) climb_from_long_waves();
     std::vector<LiveBox<Dim>> live;
-    for (std::size_t i = 0; i < q.size(); ++i)
-      if (const double bound = riesz_bound(q[i] + margin_, grid.half_width()); bound >= best_)
-        live.push_back({grid.box(i), bound});
+    const double least = best_ - std::max(value_bound(best_, grid.box(0)) - best_, 0.0);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      if (q[i] < least) continue;
+      const PhaseBox<Dim> box = grid.box(i);
+      if (const double bound = value_bound(q[i] + margin_, box); bound >= best_) live.push_back({box, bound});
+    }
     return live;
   }
 
@@ -102,7 +130,8 @@ class MaximumSearch {
     if (jacobian.determinant() == 0.0) return;
     const Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver(form_);
     const Vector<Dim> direction = jacobian.inverse() * solver.eigenvectors().col(Dim - 1);
-    for (double length = 1.0 / series_.type(); length > shortest_start; length *= 0.5) climb(length * direction.normalized());
+    for (double length = 1.0 / series_.type(); length > shortest_start; length *= 0.5)
+      climb(length * direction.normalized());
   }
 
   Expansion<Dim> expand(const Vector<Dim>& phases) {
@@ -113,46 +142,74 @@ class MaximumSearch {
     for (int i = 0; i < Dim; ++i) half_hessian += QD[i] * jet.hessian[static_cast<std::size_t>(i)];
     Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver;
     solver.computeDirect(half_hessian);
-    return {QD.dot(jet.value), solver.eigenvectors(), 2.0 * solver.eigenvectors().transpose() * (jet.jacobian.transpose() * QD),
-            2.0 * solver.eigenvalues()};
+    double second_square = 0.0;
+    for (const auto& hessian : jet.hessian) second_square += hessian.squaredNorm();
+    return {QD.dot(jet.value),
+            solver.eigenvectors(),
+            2.0 * solver.eigenvectors().transpose() * (jet.jacobian.transpose() * QD),
+            2.0 * solver.eigenvalues(),
+            jet.jacobian.norm(),
+            std::sqrt(second_square)};
   }
 
-  /// Newton ascent in the principal axes of the Hessian. Where it ends on a strict maximum, its safe ball is kept: within
-  /// radius ρ = 3μ/2T (T the bound on third derivatives, μ the least curvature) q ≤ q* + |g| r − (μ/2 − Tρ/6) r²
+  /// Newton ascent in the principal axes of the Hessian. Where it ends on a strict maximum, its safe ball is kept:
+  /// within radius ρ = 3μ/2T (T the bound on third derivatives, μ the least curvature) q ≤ q* + |g| r − (μ/2 − Tρ/6) r²
   /// = q* + |g| r − μ r²/4 ≤ q* + |g|²/μ.
   void climb(Vector<Dim> phases) {
-    const double trust = longest_step / series_.euclidean_type();
+    double trust = longest_step / series_.euclidean_type();
     Expansion<Dim> here = expand(phases);
     for (int step = 0; step < newton_steps; ++step) {
       Vector<Dim> move;
       for (int i = 0; i < Dim; ++i)
         move[i] = here.curvature[i] < 0.0 ? -here.slope[i] / here.curvature[i] : std::copysign(trust, here.slope[i]);
       if (move.norm() > trust) move *= trust / move.norm();
+      if (0.5 * here.slope.dot(move) <= negligible_gain * std::abs(here.value)) break;
       const Vector<Dim> there = phases + here.axes * move;
       const Expansion<Dim> ahead = expand(there);
-      if (!(ahead.value > here.value)) break;
-      phases = there;
-      here = ahead;
+      if (ahead.value > here.value) {
+        phases = there;
+        here = ahead;
+      } else {
+        trust = 0.25 * move.norm();  // along a curved ridge
+      }
     }
     if (here.value > best_) best_ = here.value, best_phases_ = phases;
     const double mu = -here.curvature.maxCoeff();
     if (mu <= 0.0) return;
-    balls_.push_back({phases, 1.5 * mu / third_derivative_});
-    upper_ = std::max(upper_, here.value + margin_ + here.slope.squaredNorm() / mu);
+    const double bound = here.value + margin_ + here.slope.squaredNorm() / mu;
+    if (bound > best_ * (1.0 + target_enclosure)) return;
+    upper_ = std::max(upper_, bound);
+    const double reach = 3.0 * mu / third_derivative_;
+    keep_ball(phases, std::min(reach, 1.5 * mu / third_derivative(here, reach)));
+  }
+
+  /// Every image of the ball, by translation and inversion, that touches the half zone.
+  void keep_ball(const Vector<Dim>& phases, double radius) {
+    for (const double sign : {1.0, -1.0})
+      for (unsigned shift = 0; shift < (1u << Dim); ++shift) {
+        Vector<Dim> centre = wrapped<Dim>(sign * phases);
+        bool touches = true;
+        for (int axis = 0; axis < Dim; ++axis) {
+          if (shift >> axis & 1u) centre[axis] += 2.0 * std::numbers::pi;
+          const double end = axis == Dim - 1 ? std::numbers::pi : 2.0 * std::numbers::pi;
+          touches = touches && centre[axis] > -radius && centre[axis] < end + radius;
+        }
+        if (touches) balls_.push_back({centre, radius});
+      }
   }
 
   bool is_safe(const PhaseBox<Dim>& box) const {
     return std::any_of(balls_.begin(), balls_.end(), [&](const SafeBall<Dim>& ball) {
       const double room = ball.radius - box.radius();
-      return room > 0.0 && (wrapped<Dim>(box.centre - ball.centre).norm() < room ||
-                            wrapped<Dim>(box.centre + ball.centre).norm() < room);
+      return room > 0.0 && (box.centre - ball.centre).squaredNorm() < room * room;
     });
   }
 
   /// max over the box of the second-order expansion, plus the remainder T r³/6 and the rounding of the three terms
   /// (errors ≤ margin, 2R margin, 4R² margin over distances ≤ 1/2R: 2.5 margins).
   double second_order_bound(const Expansion<Dim>& q, const PhaseBox<Dim>& box) const {
-    double bound = q.value + third_derivative_ * std::pow(box.radius(), 3) / 6.0 + 2.5 * margin_;
+    const double rho = box.radius();
+    double bound = q.value + third_derivative(q, rho) * rho * rho * rho / 6.0 + 2.5 * margin_;
     for (int i = 0; i < Dim; ++i) {
       const double extent = box.half_width * q.axes.col(i).template lpNorm<1>();
       const double slope = std::abs(q.slope[i]);
@@ -162,6 +219,13 @@ class MaximumSearch {
     return bound;
   }
 
+  /// A curvature that makes a ball as large as the box promises a maximum that deserves one, unless it has it already.
+  bool leads_to_new_ball(const Expansion<Dim>& q, const PhaseBox<Dim>& box) const {
+    if (-1.5 * q.curvature.maxCoeff() <= third_derivative(q, box.radius()) * box.radius()) return false;
+    const Vector<Dim> newton = -q.axes * q.slope.cwiseQuotient(q.curvature);
+    return !is_safe({box.centre + newton, 0.0});
+  }
+
   void examine(const LiveBox<Dim>& live, std::vector<LiveBox<Dim>>& next) {
     if (is_safe(live.box)) return;
     if (evaluations_ * static_cast<int>(series_.terms().size()) > term_budget) {
@@ -169,15 +233,13 @@ class MaximumSearch {
       return;
     }
     const Expansion<Dim> q = expand(live.box.centre);
-    const double riesz = riesz_bound(q.value + margin_, live.box.half_width);
-    const double bound = std::min({live.bound, riesz, second_order_bound(q, live.box)});
+    const double bound =
+        std::min({live.bound, value_bound(q.value + margin_, live.box), second_order_bound(q, live.box)});
     if (bound <= best_ * (1.0 + target_enclosure)) {
       upper_ = std::max(upper_, bound);
       return;
     }
-    // A curvature that would make a ball as large as the box promises a maximum that deserves one.
-    const bool near_strict_maximum = -1.5 * q.curvature.maxCoeff() > third_derivative_ * live.box.radius();
-    if (q.value > best_ + margin_ || near_strict_maximum) {
+    if (q.value > best_ + margin_ || leads_to_new_ball(q, live.box)) {
       climb(live.box.centre);
       if (is_safe(live.box)) return;
     }
@@ -190,6 +252,7 @@ class MaximumSearch {
   double floor_ = 0.0;          ///< m ≤ q
   double largest_image_ = 0.0;  ///< bound on |Q D| where it matters
   double margin_ = 0.0;         ///< bound on the rounding error of q
+  double second_derivative_ = 0.0;
   double third_derivative_ = 0.0;
   double best_ = 0.0;
   double upper_ = 0.0;

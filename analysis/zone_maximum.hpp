@@ -21,9 +21,9 @@ struct ZoneMaximum {
 ///   1. a coarse tabulated grid leaves the boxes where q ≥ m + (best − m) cos²(σ w), w their half-width;
 ///   2. a Newton iteration gives a local maximum, and a ball about it that the third derivative keeps below it;
 ///   3. boxes outside such balls are bounded by their second-order expansion at the centre, and split.
-/// When a fixed work budget is spent (q nearly constant on a ring, as for wide isotropic kernels) the bounds of the boxes
-/// that are left widen `upper`. Otherwise (upper − lower) / value is a few 1e-13 or less. For an indefinite Q, m follows
-/// from the maximum of |D|². Tested in tests/analysis/test_zone_maximum.cpp.
+/// When a fixed work budget is spent (q nearly constant on a ring, as for wide isotropic kernels) the bounds of the
+/// boxes that are left widen `upper`. Otherwise (upper − lower) / value is a few 1e-13 or less. For an indefinite Q, m
+/// follows from the maximum of |D|². Tested in tests/analysis/test_zone_maximum.cpp.
 template <int Dim>
 ZoneMaximum<Dim> zone_maximum(const SineSeries<Dim>& series, const Tensor<Dim>& form);
 

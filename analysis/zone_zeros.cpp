@@ -18,6 +18,8 @@ constexpr double grid_resolution = 0.1;
 /// Work budget in terms of the series evaluated with derivatives, some 10 ns each.
 constexpr long term_budget = 20'000'000;
 constexpr int newton_steps = 12;
+/// Newton's iteration has converged when it moves by less than this over R, or than rounding allows.
+constexpr double converged = 1e-12;
 /// Zeros closer than this over R are one: Newton ends at some 1e-14, and certain zeros are far wider apart.
 constexpr double same_zero = 1e-7;
 
@@ -25,7 +27,9 @@ template <int Dim>
 class ZeroSearch {
  public:
   explicit ZeroSearch(const SineSeries<Dim>& series)
-      : series_(series), largest_(std::sqrt(zone_maximum<Dim>(series, Tensor<Dim>::Identity()).upper)) {}
+      : series_(series),
+        largest_(std::sqrt(zone_maximum<Dim>(series, Tensor<Dim>::Identity()).upper)),
+        third_derivative_(std::min(std::pow(series.euclidean_type(), 3) * largest_, series.derivative_bound(3))) {}
 
   ZoneZeros<Dim> run() {
     for (unsigned corner = 0; corner < (1u << Dim); ++corner) {
@@ -59,24 +63,21 @@ class ZeroSearch {
   double curvature_bound(const SineJet<Dim>& jet, double r) const {
     double squares = 0.0;
     for (const auto& hessian : jet.hessian) squares += hessian.squaredNorm();
-    return std::sqrt(squares) + std::pow(series_.euclidean_type(), 3) * largest_ * r;
+    return std::sqrt(squares) + third_derivative_ * r;
   }
 
-  /// The zero to which Newton's iteration from `start` converges without leaving the ball of radius r, if it is certain.
+  /// The zero to which Newton's iteration from `start` converges without leaving the ball of radius r, if it is
+  /// certain.
   std::optional<Vector<Dim>> newton(const Vector<Dim>& start, double r) const {
     Vector<Dim> phases = start;
-    double previous = r;
     for (int step = 0; step < newton_steps; ++step) {
       const SineJet<Dim> jet = series_.jet(phases);
       const Tensor<Dim> inverse = jet.jacobian.inverse();
       const Vector<Dim> move = -inverse * jet.value;
       phases += move;
       if (!((phases - start).norm() < r)) return std::nullopt;
-      if (move.norm() < 0.5 * previous) {
-        previous = move.norm();
-        continue;
-      }
       const double least_slope = 1.0 / inverse.norm();
+      if (move.norm() > converged / series_.euclidean_type() + 2.0 * series_.rounding() / least_slope) continue;
       const bool certain = least_slope * least_slope > 4.0 * curvature_bound(jet, r) * series_.rounding();
       return certain ? std::optional<Vector<Dim>>(phases) : std::nullopt;
     }
@@ -110,6 +111,7 @@ class ZeroSearch {
 
   const SineSeries<Dim>& series_;
   double largest_;
+  double third_derivative_;
   std::vector<Vector<Dim>> zeros_;
   bool complete_ = true;
   long evaluated_terms_ = 0;

@@ -11,8 +11,8 @@ namespace sphstab::analysis {
 template <int Dim>
 struct ZoneZeros {
   std::vector<Vector<Dim>> phases;
-  /// No other zero exists. False where the series is below its rounding on whole regions, or when a fixed work budget is
-  /// spent; the zeros listed are certain all the same.
+  /// No other zero exists. False where the series is below its rounding on whole regions, or when a fixed work budget
+  /// is spent; the zeros listed are certain all the same.
   bool complete;
 };
 
@@ -20,9 +20,9 @@ struct ZoneZeros {
 ///   |f(c)| > F sin(σ w), F = max |f|: no zero (Duffin and Schaeffer; on the coarse grid), or
 ///   |J⁻¹f(c)| > ρ + ½|J⁻¹| K ρ² or |f(c)| > |J| ρ + ½ K ρ²: no zero, or
 ///   |J⁻¹| K r < 1 with r = 2ρ and the Newton iteration from c ends within r: that zero is the only one within r,
-/// where |∂²f| ≤ K = |∂²f(c)| + R³ F r within r (Bernstein); otherwise it is split. A zero counts as found where it is
-/// certain in spite of rounding δ: σ_min(J)² > 4 K δ (Kantorovich). The points θ_i ∈ {0, π} are zeros of every such series.
-/// Tested in tests/analysis/test_zero_energy_modes.cpp.
+/// where |∂²f| ≤ K = |∂²f(c)| + G r within r, G a bound on |∂³f|; otherwise it is split. A zero counts as found where
+/// it is certain in spite of rounding δ: σ_min(J)² > 4 K δ (Kantorovich). The points θ_i ∈ {0, π} are zeros of every
+/// such series. Tested in tests/analysis/test_zero_energy_modes.cpp.
 template <int Dim>
 ZoneZeros<Dim> zone_zeros(const SineSeries<Dim>& series);
 
