@@ -58,7 +58,7 @@ std::string cell(const FlatRow& row, const Column& column) {
   const auto found = std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == column.key; });
   if (found == row.end()) return {};
   const Document& value = found->second;
-  const std::string text = to_text(value);
+  std::string text = to_text(value);
   if (text.empty() || !value.is_number() || column.number_format == "{}") return text;
   return fmt::format(fmt::runtime(column.number_format), value.get<double>());
 }
