@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
 # Sourced by run.sh and test.sh: installs the Debian packages that are missing and builds preset `release`. Says what it
-# does on stderr only, because stdout belongs to the program. Leaves the repository root in `root`.
+# does on stderr only, because stdout belongs to the program. Builds `targets` if the caller set them, everything
+# otherwise. Leaves the repository root in `root`.
 
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 log=$root/build/setup.log
@@ -46,7 +47,7 @@ build() {
     say "building for the first time: a few minutes"
     (cd -- "$root" && cmake --preset release) >"$log" 2>&1 || fail 4 "The configuration failed."
   fi
-  cmake --build "$folder" --parallel "$(nproc)" >"$log" 2>&1 || fail 4 "The build failed."
+  cmake --build "$folder" --parallel "$(nproc)" ${targets:+--target "${targets[@]}"} >"$log" 2>&1 || fail 4 "The build failed."
 }
 
 # One at a time: programs that call run.sh side by side share the build folder.
