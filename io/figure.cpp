@@ -85,7 +85,7 @@ std::string marks(const LineFigure& figure) {
   for (const auto& shade : figure.shades)
     script += fmt::format(
         "set object rectangle from {0},graph 0 to {1},graph 1 behind fillstyle solid noborder fillcolor rgb '#E8E8E8'\n"
-        "set label {2} at {0},graph 0.04 offset 0.5,0 noenhanced textcolor rgb '#606060'\n",
+        "set label {2} at {0},graph 1.025 noenhanced textcolor rgb '#606060'\n",
         number(shade.from), number(shade.to), quoted(shade.label));
   for (const auto& line : figure.vertical_lines)
     script += fmt::format(

@@ -21,6 +21,10 @@ constexpr long scan_horizon = 200;
 constexpr double approach = 0.02;
 /// Growths closer than this relative difference tell nothing of the law.
 constexpr double smallest_separation = 1e-2;
+/// The linear term of the law matters from this part of the quadratic one on; below it is what errors of growth make it.
+constexpr double smallest_linear_part = 0.2;
+/// Faster growth is measured over too few steps for that.
+constexpr double largest_trusted_x = 0.5;
 /// Where an eigenvalue crosses the circle alone, growth near the limit is slow: the horizon may become this many times
 /// the default.
 constexpr long longest_horizon = 256;
@@ -106,14 +110,17 @@ class Search {
     return false;
   }
 
-  bool inside(const GrowthLaw& law) const { return law.limit > low_ && law.limit < high_ && law.linear >= 0.0; }
+  bool inside(const GrowthLaw& law) const { return law.limit > low_ && law.limit < high_; }
 
-  /// The law of growth near the limit, if one through the nearest steps has its limit in the bracket.
+  /// The law of growth near the limit, if one through the nearest steps has its limit in the bracket: the square-root law
+  /// unless a third step shows that the linear term matters.
   std::optional<GrowthLaw> law() const {
     const auto distinct = [this](std::size_t i) { return growing_[i].x > (1.0 + smallest_separation) * growing_[i - 1].x; };
     if (growing_.size() < 2 || !distinct(1)) return std::nullopt;
-    if (growing_.size() > 2 && distinct(2))
-      if (const auto law = interpolated_law(growing_[0], growing_[1], growing_[2]); inside(law)) return law;
+    if (growing_.size() > 2 && distinct(2) && growing_[2].x < largest_trusted_x) {
+      const auto law = interpolated_law(growing_[0], growing_[1], growing_[2]);
+      if (inside(law) && law.linear > smallest_linear_part * law.quadratic * growing_[0].x) return law;
+    }
     const auto law = square_root_law(growing_[0], growing_[1]);
     return inside(law) ? std::optional(law) : std::nullopt;
   }
