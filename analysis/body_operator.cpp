@@ -22,12 +22,10 @@ template <int Dim>
 std::vector<double> normalisation(const Problem<Dim>& problem, const Body<Dim>& body) {
   std::vector<double> N(body.position.size(), 1.0);
   if (problem.scheme.kernel_normalisation == KernelNormalisation::none) return N;
-  for (std::size_t a = 0; a < N.size(); ++a) {
+  for (int a = 0; a < body.size(); ++a) {
     N[a] = body.volume[a] * problem.kernel.value(0.0);
-    for (auto p = static_cast<std::size_t>(body.pairs.first[a]); p < static_cast<std::size_t>(body.pairs.first[a + 1]);
-         ++p)
-      N[a] += body.volume[static_cast<std::size_t>(body.pairs.neighbour[p])] *
-              problem.kernel.value(body.pairs.separation[p].norm());
+    for (int p = body.pairs.first[a]; p < body.pairs.first[a + 1]; ++p)
+      N[a] += body.volume[body.pairs.neighbour[p]] * problem.kernel.value(body.pairs.separation[p].norm());
   }
   return N;
 }
@@ -38,13 +36,11 @@ SparseMatrix strain_rows(const Problem<Dim>& problem, const Body<Dim>& body) {
   std::vector<Eigen::Triplet<double>> entries;
   double largest = 0.0;
   for (int a = 0; a < body.size(); ++a)
-    for (auto p = static_cast<std::size_t>(body.pairs.first[static_cast<std::size_t>(a)]);
-         p < static_cast<std::size_t>(body.pairs.first[static_cast<std::size_t>(a) + 1]); ++p) {
+    for (int p = body.pairs.first[a]; p < body.pairs.first[a + 1]; ++p) {
       const int b = body.pairs.neighbour[p];
       const Vector<Dim>& r_ab = body.pairs.separation[p];
       const double distance = r_ab.norm();
-      const Vector<Dim> weight =
-          body.volume[static_cast<std::size_t>(b)] * problem.kernel.slope(distance) / distance * r_ab;
+      const Vector<Dim> weight = body.volume[b] * problem.kernel.slope(distance) / distance * r_ab;
       largest = std::max(largest, weight.norm());
       for (int i = 0; i < Dim; ++i)
         for (int j = 0; j < Dim; ++j)
@@ -70,8 +66,7 @@ Eigen::MatrixXd weighted_operator(const Problem<Dim>& problem, const Body<Dim>& 
   const LameConstants lame = problem.material.lame(problem.plane);
   std::vector<Eigen::Triplet<double>> entries;
   for (int a = 0; a < body.size(); ++a) {
-    const auto index = static_cast<std::size_t>(a);
-    const double factor = body.volume[index] / (N[index] * problem.material.density());
+    const double factor = body.volume[a] / (N[a] * problem.material.density());
     for (int ij = 0; ij < Dim * Dim; ++ij)
       entries.emplace_back(a * Dim * Dim + ij, a * Dim * Dim + ij, factor * 2.0 * lame.shear_modulus);
     for (int i = 0; i < Dim; ++i)
@@ -88,8 +83,7 @@ Eigen::MatrixXd weighted_operator(const Problem<Dim>& problem, const Body<Dim>& 
 template <int Dim>
 Eigen::VectorXd weights(const Body<Dim>& body, const std::vector<double>& N) {
   Eigen::VectorXd NV(body.size() * Dim);
-  for (int a = 0; a < body.size(); ++a)
-    NV.segment<Dim>(a * Dim).setConstant(N[static_cast<std::size_t>(a)] * body.volume[static_cast<std::size_t>(a)]);
+  for (int a = 0; a < body.size(); ++a) NV.segment<Dim>(a * Dim).setConstant(N[a] * body.volume[a]);
   return NV;
 }
 

@@ -26,10 +26,10 @@ double bisect(const Cubic& a, double lo, double hi) {
 /// The smallest x > 0 at which a cubic that is not negative just above 0 turns negative; nothing if none.
 std::optional<double> first_exit(const Cubic& a) {
   int degree = 3;
-  while (degree > 0 && a[static_cast<std::size_t>(degree)] == 0.0) --degree;
+  while (degree > 0 && a[degree] == 0.0) --degree;
   if (degree == 0) return std::nullopt;
   // Cauchy's bound on the roots, then the extrema within: the cubic is monotone between two of these ends.
-  const double leading = std::abs(a[static_cast<std::size_t>(degree)]);
+  const double leading = std::abs(a[degree]);
   const double bound = 1.0 + std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2]), std::abs(a[3])}) / leading;
   std::array<double, 3> ends{bound, bound, bound};
   const double discriminant = a[2] * a[2] - 3.0 * a[1] * a[3];

@@ -47,8 +47,7 @@ SineSeries<Dim>::SineSeries(std::vector<SineTerm<Dim>> terms) : terms_(std::move
       of_w += w * w.transpose() * (std::pow(n.norm(), order) / size);
       of_n += n * n.transpose() * (std::pow(n.norm(), order - 2) * size);
     }
-    derivative_bounds_[static_cast<std::size_t>(order - 1)] =
-        std::sqrt(largest_eigenvalue(of_w) * largest_eigenvalue(of_n));
+    derivative_bounds_[order - 1] = std::sqrt(largest_eigenvalue(of_w) * largest_eigenvalue(of_n));
   }
   // Per term: reach products of rotations (2 roundings each) on each axis, Dim products of them, one with the weight;
   // then as many additions as terms. Unit roundoff is ε/2.
@@ -71,12 +70,12 @@ void SineSeries<Dim>::for_each_term(const Vector<Dim>& phases, const Visit& visi
       middle[n] = middle[n - 1] * unit;
       middle[-n] = {middle[n].cosine, -middle[n].sine};
     }
-    zeroth[static_cast<std::size_t>(axis)] = middle;
+    zeroth[axis] = middle;
     next = middle + reach_[axis] + 1;
   }
   for (const auto& term : terms_) {
     Rotation angle = zeroth[0][term.frequency[0]];
-    for (int axis = 1; axis < Dim; ++axis) angle = angle * zeroth[static_cast<std::size_t>(axis)][term.frequency[axis]];
+    for (int axis = 1; axis < Dim; ++axis) angle = angle * zeroth[axis][term.frequency[axis]];
     visit(term, angle.cosine, angle.sine);
   }
 }
@@ -100,7 +99,7 @@ SineJet<Dim> SineSeries<Dim>::jet(const Vector<Dim>& phases) const {
     const Vector<Dim> w_sine = sine * term.coefficient;
     jet.value += w_sine;
     jet.jacobian += (cosine * term.coefficient) * n.transpose();
-    for (int i = 0; i < Dim; ++i) jet.hessian[static_cast<std::size_t>(i)] -= w_sine[i] * nn;
+    for (int i = 0; i < Dim; ++i) jet.hessian[i] -= w_sine[i] * nn;
   });
   return jet;
 }

@@ -49,7 +49,7 @@ class SineSeries {
   /// Bounds on the first, second and third derivative in any unit direction from the coefficients: for unit e and u,
   /// Σ|w·e||n·u|ᵐ ≤ √(Σ (w·e)²|n|ᵐ/|w| · Σ (n·u)²|n|ᵐ⁻²|w|) (Cauchy, Schwarz), two largest eigenvalues. Sharper than
   /// Bernstein's for wide kernels, whose outermost neighbours weigh little.
-  double derivative_bound(int order) const { return derivative_bounds_[static_cast<std::size_t>(order - 1)]; }
+  double derivative_bound(int order) const { return derivative_bounds_[order - 1]; }
   /// Bound on the rounding error of a computed value (Euclidean norm): every term carries the errors of a product of
   /// tabulated powers of e^{iθ} and of its addition to the sum. A derivative's is at most R times it, a second one's
   /// R².

@@ -120,11 +120,11 @@ ZoneGrid<Dim>::ZoneGrid(const SineSeries<Dim>& series, const Tensor<Dim>& form, 
     : cells_(2 * static_cast<std::size_t>(std::ceil(0.5 * std::numbers::pi * series.type() / resolution))),
       half_width_(std::numbers::pi / static_cast<double>(cells_)) {
   std::array<Row, Dim> D;
-  for (int i = 0; i < Dim; ++i) D[static_cast<std::size_t>(i)] = tabulate(series, i, cells_);
+  for (int i = 0; i < Dim; ++i) D[i] = tabulate(series, i, cells_);
   values_.assign(D[0].size(), 0.0);
   for (int i = 0; i < Dim; ++i)
     for (int j = 0; j <= i; ++j) {
-      const Row &left = D[static_cast<std::size_t>(i)], &right = D[static_cast<std::size_t>(j)];
+      const Row &left = D[i], &right = D[j];
       const double factor = i == j ? form(i, i) : 2.0 * form(i, j);
       if (factor == 0.0) continue;
       for (std::size_t p = 0; p < values_.size(); ++p) values_[p] += factor * left[p] * right[p];

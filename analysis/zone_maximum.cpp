@@ -2,7 +2,6 @@
 #include "analysis/zone_maximum.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,8 +23,6 @@ constexpr double longest_step = 0.3;
 constexpr int newton_steps = 60;
 /// A step that promises less than this of q is no longer taken.
 constexpr double negligible_gain = 1e-16;
-/// Where the climbs from long waves begin to be indistinguishable from Γ.
-constexpr double shortest_start = 1e-3;
 
 /// q with gradient and curvatures, the derivatives along the principal axes of its Hessian.
 template <int Dim>
@@ -112,7 +109,6 @@ class MaximumSearch {
     best_ = *peak;
     best_phases_ = grid.box(static_cast<std::size_t>(peak - q.begin())).centre;
     climb(best_phases_);
-    if (floor_ < 0.0) climb_from_long_waves();
     std::vector<LiveBox<Dim>> live;
     const double least = best_ - std::max(value_bound(best_, grid.box(0)) - best_, 0.0);
     for (std::size_t i = 0; i < q.size(); ++i) {
@@ -123,23 +119,12 @@ class MaximumSearch {
     return live;
   }
 
-  /// A slightly indefinite Q has narrow cones of positive q that the grid can miss, but never along J(0)⁻¹ of its best
-  /// direction in the limit of long waves.
-  void climb_from_long_waves() {
-    const Tensor<Dim> jacobian = series_.jet(Vector<Dim>::Zero()).jacobian;
-    if (jacobian.determinant() == 0.0) return;
-    const Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver(form_);
-    const Vector<Dim> direction = jacobian.inverse() * solver.eigenvectors().col(Dim - 1);
-    for (double length = 1.0 / series_.type(); length > shortest_start; length *= 0.5)
-      climb(length * direction.normalized());
-  }
-
   Expansion<Dim> expand(const Vector<Dim>& phases) {
     ++evaluations_;
     const SineJet<Dim> jet = series_.jet(phases);
     const Vector<Dim> QD = form_ * jet.value;
     Tensor<Dim> half_hessian = jet.jacobian.transpose() * form_ * jet.jacobian;
-    for (int i = 0; i < Dim; ++i) half_hessian += QD[i] * jet.hessian[static_cast<std::size_t>(i)];
+    for (int i = 0; i < Dim; ++i) half_hessian += QD[i] * jet.hessian[i];
     Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver;
     solver.computeDirect(half_hessian);
     double second_square = 0.0;

@@ -208,6 +208,14 @@ TEST_CASE("a patch and Zhang's box admit fewer modes than the zone", "[fast]") {
   CHECK(conditional(patch_limit(problem, {7, 5})).critical_time_step == smallest);
   CHECK(smallest > bulk);
   CHECK(conditional(patch_limit(problem, {240, 240})).critical_time_step == Approx(bulk).epsilon(1e-3));
+  // m = 1 … M: a box one particle wide has Kx Δp = π only.
+  const auto square = problem_2d(LatticeKind::square, KernelFamily::cubic_spline, 1.3);
+  double along_edge = 1e300;
+  for (int l = 1; l <= 7; ++l) {
+    const Vector<2> k(std::numbers::pi, l * std::numbers::pi / 8.0);
+    along_edge = std::min(along_edge, conditional(mode_limit(square, k)).critical_time_step);
+  }
+  CHECK(conditional(paper_limit(square, {1, 8})).critical_time_step == Approx(along_edge).epsilon(rounding_tolerance));
   CHECK_THROWS_AS(patch_limit(problem, {0, 3}), InvalidInput);
   CHECK_THROWS_AS(paper_limit(problem, {4, 0}), InvalidInput);
 }

@@ -216,10 +216,10 @@ TEST_CASE("the amplification matrix is one time step of the linearised equations
     const auto E = amplification_matrix(problem, wave_vector, dt);
     for (int column = 0; column < 4; ++column) {
       std::array<Precise, 4> unit{0, 0, 0, 0};
-      unit[static_cast<std::size_t>(column)] = 1;
+      unit[column] = 1;
       const auto image = stepped(problem, M, unit, dt);
       for (int row = 0; row < 4; ++row)
-        CHECK(std::abs(E(row, column) - static_cast<double>(image[static_cast<std::size_t>(row)])) < formula_tolerance);
+        CHECK(std::abs(E(row, column) - static_cast<double>(image[row])) < formula_tolerance);
     }
   }
 }
