@@ -21,6 +21,8 @@ constexpr int term_budget = 400000;
 /// Steps of the Newton iteration are cut to this over R.
 constexpr double longest_step = 0.3;
 constexpr int newton_steps = 60;
+/// Climbs that start from the boxes that the budget did not reach.
+constexpr std::size_t climbs_from_the_rest = 100;
 /// A step that promises less than this of q is no longer taken.
 constexpr double negligible_gain = 1e-16;
 
@@ -67,6 +69,7 @@ class MaximumSearch {
       for (const auto& box : live) examine(box, next);
       live = std::move(next);
     }
+    climb_from_the_rest();
     return {best_phases_, best_, best_ - margin_, std::max(upper_, best_ + margin_), evaluations_};
   }
 
@@ -215,6 +218,7 @@ class MaximumSearch {
     if (is_safe(live.box)) return;
     if (evaluations_ * static_cast<int>(series_.terms().size()) > term_budget) {
       upper_ = std::max(upper_, live.bound);
+      left_over_.push_back(live.box.centre);
       return;
     }
     const Expansion<Dim> q = expand(live.box.centre);
@@ -231,6 +235,12 @@ class MaximumSearch {
     for (const auto& child : live.box.children()) next.push_back({child, bound});
   }
 
+  /// Where the budget was spent on a ring of near-maxima, climbs from places all along it find the highest of them.
+  void climb_from_the_rest() {
+    const std::size_t stride = 1 + left_over_.size() / climbs_from_the_rest;
+    for (std::size_t i = 0; i < left_over_.size(); i += stride) climb(left_over_[i]);
+  }
+
   const SineSeries<Dim>& series_;
   Tensor<Dim> form_;
   double form_norm_ = 0.0;
@@ -243,6 +253,7 @@ class MaximumSearch {
   double upper_ = 0.0;
   Vector<Dim> best_phases_ = Vector<Dim>::Zero();
   std::vector<SafeBall<Dim>> balls_;
+  std::vector<Vector<Dim>> left_over_;  ///< centres of the boxes that the budget did not reach
   int evaluations_ = 0;
 };
 

@@ -215,7 +215,8 @@ TEST_CASE("a ring of near-maxima gives the right value and an honest bracket", "
     double h;
     double cutoff;
   };
-  for (const auto& ring : {Ring{KernelFamily::gaussian, 2.0, 7.0}, Ring{KernelFamily::wendland_c6, 4.0, 3.0},
+  for (const auto& ring : {Ring{KernelFamily::gaussian, 2.0, 7.0}, Ring{KernelFamily::gaussian, 1.6, 7.0},
+                           Ring{KernelFamily::wendland_c6, 4.0, 3.0},
                            Ring{KernelFamily::sinc_5, 2.0, 3.0}}) {
     INFO(name_of(ring.kernel));
     const GradientSymbol<2> symbol(problem_2d(LatticeKind::square, ring.kernel, ring.h, ring.cutoff));
@@ -237,7 +238,8 @@ TEST_CASE("a ring of near-maxima gives the right value and an honest bracket", "
     // Rays are 1.6e-3 apart: between two of them q can be higher by the tangential variation, below 1e-5, times
     // (4 · 8e-4)² / 4, as a quarter turn is one period.
     constexpr double ray_spacing_error = 1e-10;
-    constexpr double ring_value = 2e-10;  // 1e-10 of max |D|
+    // The climbs along the ring end within rounding of its highest place, or within 1e-12 on a ring as flat as that.
+    constexpr double ring_value = 2e-12;
     CHECK(found.value >= best * (1.0 - ring_value));
     CHECK(found.value <= best * (1.0 + ray_spacing_error));
     CHECK(found.lower <= best * (1.0 + ray_spacing_error));
