@@ -22,6 +22,8 @@ AcousticForm<Dim>::AcousticForm(const Problem<Dim>& problem, const Tensor<Dim>& 
   coupling *= f;
 }
 
+template struct AcousticForm<1>;
 template struct AcousticForm<2>;
+template struct AcousticForm<3>;
 
 }  // namespace sphstab::analysis

@@ -29,6 +29,8 @@ struct AcousticForm {
   double transverse(const Vector<Dim>& D) const { return shear * D.squaredNorm(); }
 };
 
+extern template struct AcousticForm<1>;
 extern template struct AcousticForm<2>;
+extern template struct AcousticForm<3>;
 
 }  // namespace sphstab::analysis

@@ -47,7 +47,10 @@ ComplexMatrix amplification_matrix(const Problem<Dim>& problem, const Vector<Dim
   const double a = problem.scheme.damping ? problem.scheme.damping->rate * dt : 0.0, b = 1.0 - 0.5 * a;
   Eigen::Matrix<double, 2 * Dim, 2 * Dim> E;
   const auto fill = [&E](const Tensor<Dim>& vv, const Tensor<Dim>& vs, const Tensor<Dim>& sv, const Tensor<Dim>& ss) {
-    E << vv, vs, sv, ss;
+    E.template topLeftCorner<Dim, Dim>() = vv;
+    E.template topRightCorner<Dim, Dim>() = vs;
+    E.template bottomLeftCorner<Dim, Dim>() = sv;
+    E.template bottomRightCorner<Dim, Dim>() = ss;
   };
   switch (problem.integrator) {
     case Integrator::leapfrog:
@@ -87,9 +90,17 @@ std::vector<std::complex<double>> numerical_eigenvalues(const ComplexMatrix& mat
   return {eigenvalues.begin(), eigenvalues.end()};
 }
 
+template std::vector<std::string> state_names(const Problem<1>&);
+template Tensor<1> dynamical_matrix(const Problem<1>&, const Vector<1>&);
+template ComplexMatrix amplification_matrix(const Problem<1>&, const Vector<1>&, double);
+template ModeSpectrum mode_spectrum(const Problem<1>&, const Vector<1>&, double);
 template std::vector<std::string> state_names(const Problem<2>&);
 template Tensor<2> dynamical_matrix(const Problem<2>&, const Vector<2>&);
 template ComplexMatrix amplification_matrix(const Problem<2>&, const Vector<2>&, double);
 template ModeSpectrum mode_spectrum(const Problem<2>&, const Vector<2>&, double);
+template std::vector<std::string> state_names(const Problem<3>&);
+template Tensor<3> dynamical_matrix(const Problem<3>&, const Vector<3>&);
+template ComplexMatrix amplification_matrix(const Problem<3>&, const Vector<3>&, double);
+template ModeSpectrum mode_spectrum(const Problem<3>&, const Vector<3>&, double);
 
 }  // namespace sphstab::analysis

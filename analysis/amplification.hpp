@@ -41,9 +41,17 @@ ModeSpectrum mode_spectrum(const Problem<Dim>& problem, const Vector<Dim>& wave_
 /// Eigenvalues of a matrix by Eigen's dense solver, the oracle of the closed form; order unspecified.
 std::vector<std::complex<double>> numerical_eigenvalues(const ComplexMatrix& matrix);
 
+extern template std::vector<std::string> state_names(const Problem<1>&);
+extern template Tensor<1> dynamical_matrix(const Problem<1>&, const Vector<1>&);
+extern template ComplexMatrix amplification_matrix(const Problem<1>&, const Vector<1>&, double);
+extern template ModeSpectrum mode_spectrum(const Problem<1>&, const Vector<1>&, double);
 extern template std::vector<std::string> state_names(const Problem<2>&);
 extern template Tensor<2> dynamical_matrix(const Problem<2>&, const Vector<2>&);
 extern template ComplexMatrix amplification_matrix(const Problem<2>&, const Vector<2>&, double);
 extern template ModeSpectrum mode_spectrum(const Problem<2>&, const Vector<2>&, double);
+extern template std::vector<std::string> state_names(const Problem<3>&);
+extern template Tensor<3> dynamical_matrix(const Problem<3>&, const Vector<3>&);
+extern template ComplexMatrix amplification_matrix(const Problem<3>&, const Vector<3>&, double);
+extern template ModeSpectrum mode_spectrum(const Problem<3>&, const Vector<3>&, double);
 
 }  // namespace sphstab::analysis

@@ -131,8 +131,14 @@ Eigen::VectorXd critical_displacement(const Problem<Dim>& problem, const Body<Di
   return op.scale.cwiseProduct(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(op.matrix).eigenvectors().rightCols<1>());
 }
 
+template Eigen::MatrixXd dense_operator(const Problem<1>&, const Body<1>&);
+template Eigen::VectorXd critical_displacement(const Problem<1>&, const Body<1>&);
+template BodyLimit dense_body_limit(const Problem<1>&, const Body<1>&);
 template Eigen::MatrixXd dense_operator(const Problem<2>&, const Body<2>&);
 template Eigen::VectorXd critical_displacement(const Problem<2>&, const Body<2>&);
 template BodyLimit dense_body_limit(const Problem<2>&, const Body<2>&);
+template Eigen::MatrixXd dense_operator(const Problem<3>&, const Body<3>&);
+template Eigen::VectorXd critical_displacement(const Problem<3>&, const Body<3>&);
+template BodyLimit dense_body_limit(const Problem<3>&, const Body<3>&);
 
 }  // namespace sphstab::analysis

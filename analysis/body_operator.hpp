@@ -31,8 +31,14 @@ BodyLimit dense_body_limit(const Problem<Dim>& problem, const Body<Dim>& body);
 template <int Dim>
 Eigen::VectorXd critical_displacement(const Problem<Dim>& problem, const Body<Dim>& body);
 
+extern template Eigen::VectorXd critical_displacement(const Problem<1>&, const Body<1>&);
+extern template Eigen::MatrixXd dense_operator(const Problem<1>&, const Body<1>&);
+extern template BodyLimit dense_body_limit(const Problem<1>&, const Body<1>&);
 extern template Eigen::VectorXd critical_displacement(const Problem<2>&, const Body<2>&);
 extern template Eigen::MatrixXd dense_operator(const Problem<2>&, const Body<2>&);
 extern template BodyLimit dense_body_limit(const Problem<2>&, const Body<2>&);
+extern template Eigen::VectorXd critical_displacement(const Problem<3>&, const Body<3>&);
+extern template Eigen::MatrixXd dense_operator(const Problem<3>&, const Body<3>&);
+extern template BodyLimit dense_body_limit(const Problem<3>&, const Body<3>&);
 
 }  // namespace sphstab::analysis

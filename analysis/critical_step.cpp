@@ -230,6 +230,15 @@ ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem) {
   return modes;
 }
 
+template StepLimit<1> bulk_limit(const Problem<1>&);
+template StepLimit<1> mode_limit(const Problem<1>&, const Vector<1>&);
+template StepLimit<1> paper_limit(const Problem<1>&, const LatticeIndex<1>&);
+template StepLimit<1> patch_limit(const Problem<1>&, const LatticeIndex<1>&);
+template double symbol_maximum(const Problem<1>&);
+template double zone_spectral_radius(const Problem<1>&, double);
+template std::optional<double> step_for_growth(const Problem<1>&, double);
+template std::optional<double> published_bound(const Problem<1>&);
+template ZeroEnergyModes<1> zero_energy_modes(const Problem<1>&);
 template StepLimit<2> bulk_limit(const Problem<2>&);
 template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
 template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
@@ -239,5 +248,14 @@ template double zone_spectral_radius(const Problem<2>&, double);
 template std::optional<double> step_for_growth(const Problem<2>&, double);
 template std::optional<double> published_bound(const Problem<2>&);
 template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
+template StepLimit<3> bulk_limit(const Problem<3>&);
+template StepLimit<3> mode_limit(const Problem<3>&, const Vector<3>&);
+template StepLimit<3> paper_limit(const Problem<3>&, const LatticeIndex<3>&);
+template StepLimit<3> patch_limit(const Problem<3>&, const LatticeIndex<3>&);
+template double symbol_maximum(const Problem<3>&);
+template double zone_spectral_radius(const Problem<3>&, double);
+template std::optional<double> step_for_growth(const Problem<3>&, double);
+template std::optional<double> published_bound(const Problem<3>&);
+template ZeroEnergyModes<3> zero_energy_modes(const Problem<3>&);
 
 }  // namespace sphstab::analysis

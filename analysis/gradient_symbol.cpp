@@ -60,6 +60,8 @@ Vector<Dim> GradientSymbol<Dim>::cleaned(const Vector<Dim>& wave_vector) const {
   return value.norm() > series_.rounding() + of_phases ? value : Vector<Dim>::Zero();
 }
 
+template class GradientSymbol<1>;
 template class GradientSymbol<2>;
+template class GradientSymbol<3>;
 
 }  // namespace sphstab::analysis

@@ -39,6 +39,8 @@ class GradientSymbol {
   SineSeries<Dim> series_;
 };
 
+extern template class GradientSymbol<1>;
 extern template class GradientSymbol<2>;
+extern template class GradientSymbol<3>;
 
 }  // namespace sphstab::analysis

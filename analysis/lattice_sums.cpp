@@ -39,6 +39,8 @@ LatticeSums<Dim> lattice_sums(const Lattice<Dim>& lattice, const Kernel<Dim>& ke
   return sums;
 }
 
+template LatticeSums<1> lattice_sums(const Lattice<1>&, const Kernel<1>&, NeighbourRule, const Vector<1>&, double);
 template LatticeSums<2> lattice_sums(const Lattice<2>&, const Kernel<2>&, NeighbourRule, const Vector<2>&, double);
+template LatticeSums<3> lattice_sums(const Lattice<3>&, const Kernel<3>&, NeighbourRule, const Vector<3>&, double);
 
 }  // namespace sphstab::analysis

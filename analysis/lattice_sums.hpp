@@ -24,7 +24,11 @@ template <int Dim>
 LatticeSums<Dim> lattice_sums(const Lattice<Dim>& lattice, const Kernel<Dim>& kernel, NeighbourRule rule,
                               const Vector<Dim>& wave_vector, double artificial_stress_exponent);
 
+extern template LatticeSums<1> lattice_sums(const Lattice<1>&, const Kernel<1>&, NeighbourRule, const Vector<1>&,
+                                            double);
 extern template LatticeSums<2> lattice_sums(const Lattice<2>&, const Kernel<2>&, NeighbourRule, const Vector<2>&,
+                                            double);
+extern template LatticeSums<3> lattice_sums(const Lattice<3>&, const Kernel<3>&, NeighbourRule, const Vector<3>&,
                                             double);
 
 }  // namespace sphstab::analysis

@@ -104,6 +104,8 @@ SineJet<Dim> SineSeries<Dim>::jet(const Vector<Dim>& phases) const {
   return jet;
 }
 
+template class SineSeries<1>;
 template class SineSeries<2>;
+template class SineSeries<3>;
 
 }  // namespace sphstab::analysis

@@ -67,6 +67,8 @@ class SineSeries {
   double rounding_ = 0.0;
 };
 
+extern template class SineSeries<1>;
 extern template class SineSeries<2>;
+extern template class SineSeries<3>;
 
 }  // namespace sphstab::analysis

@@ -147,8 +147,14 @@ Vector<Dim> wrapped(const Vector<Dim>& phases) {
   return result;
 }
 
+template struct PhaseBox<1>;
+template class ZoneGrid<1>;
+template Vector<1> wrapped<1>(const Vector<1>&);
 template struct PhaseBox<2>;
 template class ZoneGrid<2>;
 template Vector<2> wrapped<2>(const Vector<2>&);
+template struct PhaseBox<3>;
+template class ZoneGrid<3>;
+template Vector<3> wrapped<3>(const Vector<3>&);
 
 }  // namespace sphstab::analysis

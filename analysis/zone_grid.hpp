@@ -43,8 +43,14 @@ class ZoneGrid {
 template <int Dim>
 Vector<Dim> wrapped(const Vector<Dim>& phases);
 
+extern template struct PhaseBox<1>;
+extern template class ZoneGrid<1>;
+extern template Vector<1> wrapped<1>(const Vector<1>&);
 extern template struct PhaseBox<2>;
 extern template class ZoneGrid<2>;
 extern template Vector<2> wrapped<2>(const Vector<2>&);
+extern template struct PhaseBox<3>;
+extern template class ZoneGrid<3>;
+extern template Vector<3> wrapped<3>(const Vector<3>&);
 
 }  // namespace sphstab::analysis

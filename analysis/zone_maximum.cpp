@@ -264,6 +264,8 @@ ZoneMaximum<Dim> zone_maximum(const SineSeries<Dim>& series, const Tensor<Dim>& 
   return MaximumSearch<Dim>(series, form).run();
 }
 
+template ZoneMaximum<1> zone_maximum(const SineSeries<1>&, const Tensor<1>&);
 template ZoneMaximum<2> zone_maximum(const SineSeries<2>&, const Tensor<2>&);
+template ZoneMaximum<3> zone_maximum(const SineSeries<3>&, const Tensor<3>&);
 
 }  // namespace sphstab::analysis

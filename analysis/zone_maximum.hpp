@@ -27,6 +27,8 @@ struct ZoneMaximum {
 template <int Dim>
 ZoneMaximum<Dim> zone_maximum(const SineSeries<Dim>& series, const Tensor<Dim>& form);
 
+extern template ZoneMaximum<1> zone_maximum(const SineSeries<1>&, const Tensor<1>&);
 extern template ZoneMaximum<2> zone_maximum(const SineSeries<2>&, const Tensor<2>&);
+extern template ZoneMaximum<3> zone_maximum(const SineSeries<3>&, const Tensor<3>&);
 
 }  // namespace sphstab::analysis

@@ -124,6 +124,8 @@ ZoneZeros<Dim> zone_zeros(const SineSeries<Dim>& series) {
   return ZeroSearch<Dim>(series).run();
 }
 
+template ZoneZeros<1> zone_zeros(const SineSeries<1>&);
 template ZoneZeros<2> zone_zeros(const SineSeries<2>&);
+template ZoneZeros<3> zone_zeros(const SineSeries<3>&);
 
 }  // namespace sphstab::analysis

@@ -26,6 +26,8 @@ struct ZoneZeros {
 template <int Dim>
 ZoneZeros<Dim> zone_zeros(const SineSeries<Dim>& series);
 
+extern template ZoneZeros<1> zone_zeros(const SineSeries<1>&);
 extern template ZoneZeros<2> zone_zeros(const SineSeries<2>&);
+extern template ZoneZeros<3> zone_zeros(const SineSeries<3>&);
 
 }  // namespace sphstab::analysis

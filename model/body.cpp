@@ -72,8 +72,14 @@ Body<Dim> free_plate(const Problem<Dim>& problem, const LatticeIndex<Dim>& parti
   return block_of_lattice(problem, particles, Boundary::free);
 }
 
+template struct NeighbourPairs<1>;
+template Body<1> periodic_patch(const Problem<1>&, const LatticeIndex<1>&);
+template Body<1> free_plate(const Problem<1>&, const LatticeIndex<1>&);
 template struct NeighbourPairs<2>;
 template Body<2> periodic_patch(const Problem<2>&, const LatticeIndex<2>&);
 template Body<2> free_plate(const Problem<2>&, const LatticeIndex<2>&);
+template struct NeighbourPairs<3>;
+template Body<3> periodic_patch(const Problem<3>&, const LatticeIndex<3>&);
+template Body<3> free_plate(const Problem<3>&, const LatticeIndex<3>&);
 
 }  // namespace sphstab

@@ -40,8 +40,14 @@ Body<Dim> periodic_patch(const Problem<Dim>& problem, const LatticeIndex<Dim>& c
 template <int Dim>
 Body<Dim> free_plate(const Problem<Dim>& problem, const LatticeIndex<Dim>& particles);
 
+extern template struct NeighbourPairs<1>;
+extern template Body<1> periodic_patch(const Problem<1>&, const LatticeIndex<1>&);
+extern template Body<1> free_plate(const Problem<1>&, const LatticeIndex<1>&);
 extern template struct NeighbourPairs<2>;
 extern template Body<2> periodic_patch(const Problem<2>&, const LatticeIndex<2>&);
 extern template Body<2> free_plate(const Problem<2>&, const LatticeIndex<2>&);
+extern template struct NeighbourPairs<3>;
+extern template Body<3> periodic_patch(const Problem<3>&, const LatticeIndex<3>&);
+extern template Body<3> free_plate(const Problem<3>&, const LatticeIndex<3>&);
 
 }  // namespace sphstab

@@ -144,9 +144,17 @@ std::optional<LatticeIndex<Dim>> make_counts(const Case& input, std::string_view
 template Kernel<1> make_kernel(const Case&);
 template Kernel<2> make_kernel(const Case&);
 template Kernel<3> make_kernel(const Case&);
+template Lattice<1> make_lattice(const Case&);
+template Problem<1> make_problem(const Case&);
+template Vector<1> make_wave_vector(const Case&);
+template std::optional<LatticeIndex<1>> make_counts(const Case&, std::string_view);
 template Lattice<2> make_lattice(const Case&);
 template Problem<2> make_problem(const Case&);
 template Vector<2> make_wave_vector(const Case&);
 template std::optional<LatticeIndex<2>> make_counts(const Case&, std::string_view);
+template Lattice<3> make_lattice(const Case&);
+template Problem<3> make_problem(const Case&);
+template Vector<3> make_wave_vector(const Case&);
+template std::optional<LatticeIndex<3>> make_counts(const Case&, std::string_view);
 
 }  // namespace sphstab

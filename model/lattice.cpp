@@ -14,20 +14,27 @@ namespace {
 /// Distances that agree to this relative difference form one shell; rounding of Σ n_i a_i is four orders below.
 constexpr double shell_tolerance = 1e-10;
 
-Tensor<2> unit_primitive_vectors(LatticeKind kind) {
-  Tensor<2> a;
+/// Columns a_i for unit spacing.
+Eigen::MatrixXd unit_primitive_vectors(LatticeKind kind) {
+  using std::numbers::sqrt2;
+  using std::numbers::sqrt3;
   switch (kind) {
+    case LatticeKind::chain:
+      return Eigen::MatrixXd::Identity(1, 1);
     case LatticeKind::square:
-      a << 1.0, 0.0, 0.0, 1.0;
-      return a;
+      return Eigen::MatrixXd::Identity(2, 2);
     case LatticeKind::hexagonal:
-      a << 1.0, 0.5, 0.0, 0.5 * std::numbers::sqrt3;
-      return a;
+      return Tensor<2>{{1.0, 0.5}, {0.0, 0.5 * sqrt3}};
     case LatticeKind::staggered:
-      a << 1.0, 0.5, 0.0, 1.0;
-      return a;
+      return Tensor<2>{{1.0, 0.5}, {0.0, 1.0}};
+    case LatticeKind::cubic:
+      return Eigen::MatrixXd::Identity(3, 3);
+    case LatticeKind::bcc:
+      return Tensor<3>{{-1.0, 1.0, 1.0}, {1.0, -1.0, 1.0}, {1.0, 1.0, -1.0}} / sqrt3;
+    case LatticeKind::fcc:
+      return Tensor<3>{{0.0, 1.0, 1.0}, {1.0, 0.0, 1.0}, {1.0, 1.0, 0.0}} / sqrt2;
   }
-  return a;
+  return {};
 }
 
 /// Calls visit(n) for every index with |n_i| ≤ reach_i.
@@ -52,10 +59,15 @@ bool before(const LatticeNeighbour<Dim>& left, const LatticeNeighbour<Dim>& righ
 
 }  // namespace
 
+int dimension_of(LatticeKind kind) { return static_cast<int>(unit_primitive_vectors(kind).rows()); }
+
 template <int Dim>
 Lattice<Dim>::Lattice(LatticeKind kind, double spacing) : kind_(kind), spacing_(spacing) {
   if (!(spacing > 0.0) || !std::isfinite(spacing))
     throw InvalidInput(fmt::format("spacing: {} is not a positive finite number", spacing));
+  if (dimension_of(kind) != Dim)
+    throw InvalidInput(fmt::format("lattice: {} has {} dimension{}, not {}", name_of(kind), dimension_of(kind),
+                                   dimension_of(kind) == 1 ? "" : "s", Dim));
   primitive_ = spacing * unit_primitive_vectors(kind);
   reciprocal_ = 2.0 * std::numbers::pi * primitive_.inverse().transpose();
   cell_volume_ = std::abs(primitive_.determinant());
@@ -87,7 +99,11 @@ std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattic
   return neighbours;
 }
 
+template class Lattice<1>;
 template class Lattice<2>;
+template class Lattice<3>;
+template std::vector<LatticeNeighbour<1>> lattice_neighbours(const Lattice<1>&, double, NeighbourRule);
 template std::vector<LatticeNeighbour<2>> lattice_neighbours(const Lattice<2>&, double, NeighbourRule);
+template std::vector<LatticeNeighbour<3>> lattice_neighbours(const Lattice<3>&, double, NeighbourRule);
 
 }  // namespace sphstab

@@ -8,13 +8,21 @@
 
 namespace sphstab {
 
-enum class LatticeKind { square, hexagonal, staggered };
+enum class LatticeKind { chain, square, hexagonal, staggered, cubic, bcc, fcc };
 
 template <>
 struct Names<LatticeKind> {
-  static constexpr std::array<Named<LatticeKind>, 3> table{
-      {{LatticeKind::square, "square"}, {LatticeKind::hexagonal, "hexagonal"}, {LatticeKind::staggered, "staggered"}}};
+  static constexpr std::array<Named<LatticeKind>, 7> table{{{LatticeKind::chain, "chain"},
+                                                            {LatticeKind::square, "square"},
+                                                            {LatticeKind::hexagonal, "hexagonal"},
+                                                            {LatticeKind::staggered, "staggered"},
+                                                            {LatticeKind::cubic, "cubic"},
+                                                            {LatticeKind::bcc, "bcc"},
+                                                            {LatticeKind::fcc, "fcc"}}};
 };
+
+/// The dimension in which a lattice lives.
+int dimension_of(LatticeKind kind);
 
 /// Which lattice sites within the support interact.
 enum class NeighbourRule {
@@ -32,9 +40,10 @@ struct Names<NeighbourRule> {
 template <int Dim>
 class Lattice {
  public:
-  /// The primitive vectors of `kind` times `spacing` (a length): square (1,0),(0,1); hexagonal (1,0),(1/2,√3/2);
-  /// staggered (1,0),(1/2,1), the "face-centred cells" of Gray et al. Throws InvalidInput if spacing is not positive or
-  /// the kind does not exist in `Dim` dimensions.
+  /// The primitive vectors of `kind` times `spacing` (a length): chain (1); square (1,0),(0,1); hexagonal (1,0),(1/2,√3/2);
+  /// staggered (1,0),(1/2,1), the "face-centred cells" of Gray et al.; cubic (1,0,0),(0,1,0),(0,0,1);
+  /// bcc (−1,1,1),(1,−1,1),(1,1,−1) over √3 and fcc (0,1,1),(1,0,1),(1,1,0) over √2, so that spacing is the distance of
+  /// nearest neighbours. Throws InvalidInput if spacing is not positive or the kind does not live in `Dim` dimensions.
   Lattice(LatticeKind kind, double spacing);
 
   LatticeKind kind() const { return kind_; }
@@ -71,7 +80,11 @@ inline constexpr double tie_margin = 1e-12;
 template <int Dim>
 std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattice, double support, NeighbourRule rule);
 
+extern template class Lattice<1>;
 extern template class Lattice<2>;
+extern template class Lattice<3>;
+extern template std::vector<LatticeNeighbour<1>> lattice_neighbours(const Lattice<1>&, double, NeighbourRule);
 extern template std::vector<LatticeNeighbour<2>> lattice_neighbours(const Lattice<2>&, double, NeighbourRule);
+extern template std::vector<LatticeNeighbour<3>> lattice_neighbours(const Lattice<3>&, double, NeighbourRule);
 
 }  // namespace sphstab

@@ -100,10 +100,20 @@ BlochStepMatrix<Dim> bloch_step_matrix(const Problem<Dim>& problem, const Body<D
   return matrix;
 }
 
+template Field<1, Complex> bloch_wave(const Body<1>&, const Vector<1>&, const Vector<1, Complex>&);
+template Vector<1, Complex> bloch_amplitude(const Body<1>&, const Vector<1>&, const Field<1>&);
+template Vector<1, Complex> bloch_amplitude(const Body<1>&, const Vector<1>&, const Field<1, Complex>&);
+template Tensor<1, Complex> bloch_acceleration_matrix(const Problem<1>&, const Body<1>&, const Vector<1>&);
+template BlochStepMatrix<1> bloch_step_matrix(const Problem<1>&, const Body<1>&, const Vector<1>&, double);
 template Field<2, Complex> bloch_wave(const Body<2>&, const Vector<2>&, const Vector<2, Complex>&);
 template Vector<2, Complex> bloch_amplitude(const Body<2>&, const Vector<2>&, const Field<2>&);
 template Vector<2, Complex> bloch_amplitude(const Body<2>&, const Vector<2>&, const Field<2, Complex>&);
 template Tensor<2, Complex> bloch_acceleration_matrix(const Problem<2>&, const Body<2>&, const Vector<2>&);
 template BlochStepMatrix<2> bloch_step_matrix(const Problem<2>&, const Body<2>&, const Vector<2>&, double);
+template Field<3, Complex> bloch_wave(const Body<3>&, const Vector<3>&, const Vector<3, Complex>&);
+template Vector<3, Complex> bloch_amplitude(const Body<3>&, const Vector<3>&, const Field<3>&);
+template Vector<3, Complex> bloch_amplitude(const Body<3>&, const Vector<3>&, const Field<3, Complex>&);
+template Tensor<3, Complex> bloch_acceleration_matrix(const Problem<3>&, const Body<3>&, const Vector<3>&);
+template BlochStepMatrix<3> bloch_step_matrix(const Problem<3>&, const Body<3>&, const Vector<3>&, double);
 
 }  // namespace sphstab::solver

@@ -35,6 +35,14 @@ template <int Dim>
 BlochStepMatrix<Dim> bloch_step_matrix(const Problem<Dim>& problem, const Body<Dim>& patch,
                                        const Vector<Dim>& wave_vector, double time_step);
 
+extern template Field<1, std::complex<double>> bloch_wave(const Body<1>&, const Vector<1>&,
+                                                          const Vector<1, std::complex<double>>&);
+extern template Vector<1, std::complex<double>> bloch_amplitude(const Body<1>&, const Vector<1>&, const Field<1>&);
+extern template Vector<1, std::complex<double>> bloch_amplitude(const Body<1>&, const Vector<1>&,
+                                                                const Field<1, std::complex<double>>&);
+extern template Tensor<1, std::complex<double>> bloch_acceleration_matrix(const Problem<1>&, const Body<1>&,
+                                                                          const Vector<1>&);
+extern template BlochStepMatrix<1> bloch_step_matrix(const Problem<1>&, const Body<1>&, const Vector<1>&, double);
 extern template Field<2, std::complex<double>> bloch_wave(const Body<2>&, const Vector<2>&,
                                                           const Vector<2, std::complex<double>>&);
 extern template Vector<2, std::complex<double>> bloch_amplitude(const Body<2>&, const Vector<2>&, const Field<2>&);
@@ -43,5 +51,13 @@ extern template Vector<2, std::complex<double>> bloch_amplitude(const Body<2>&, 
 extern template Tensor<2, std::complex<double>> bloch_acceleration_matrix(const Problem<2>&, const Body<2>&,
                                                                           const Vector<2>&);
 extern template BlochStepMatrix<2> bloch_step_matrix(const Problem<2>&, const Body<2>&, const Vector<2>&, double);
+extern template Field<3, std::complex<double>> bloch_wave(const Body<3>&, const Vector<3>&,
+                                                          const Vector<3, std::complex<double>>&);
+extern template Vector<3, std::complex<double>> bloch_amplitude(const Body<3>&, const Vector<3>&, const Field<3>&);
+extern template Vector<3, std::complex<double>> bloch_amplitude(const Body<3>&, const Vector<3>&,
+                                                                const Field<3, std::complex<double>>&);
+extern template Tensor<3, std::complex<double>> bloch_acceleration_matrix(const Problem<3>&, const Body<3>&,
+                                                                          const Vector<3>&);
+extern template BlochStepMatrix<3> bloch_step_matrix(const Problem<3>&, const Body<3>&, const Vector<3>&, double);
 
 }  // namespace sphstab::solver

@@ -131,8 +131,14 @@ Scalar Simulation<Dim, Scalar>::strain_energy(const State<Dim, Scalar>& state) c
   return twice_energy / Real<Scalar>(2);
 }
 
+template class Simulation<1, double>;
+template class Simulation<1, float>;
+template class Simulation<1, std::complex<double>>;
 template class Simulation<2, double>;
 template class Simulation<2, float>;
 template class Simulation<2, std::complex<double>>;
+template class Simulation<3, double>;
+template class Simulation<3, float>;
+template class Simulation<3, std::complex<double>>;
 
 }  // namespace sphstab::solver

@@ -65,8 +65,14 @@ class Simulation {
   long right_hand_sides_ = 0;
 };
 
+extern template class Simulation<1, double>;
+extern template class Simulation<1, float>;
+extern template class Simulation<1, std::complex<double>>;
 extern template class Simulation<2, double>;
 extern template class Simulation<2, float>;
 extern template class Simulation<2, std::complex<double>>;
+extern template class Simulation<3, double>;
+extern template class Simulation<3, float>;
+extern template class Simulation<3, std::complex<double>>;
 
 }  // namespace sphstab::solver

@@ -70,8 +70,14 @@ Eigen::MatrixXd step_jacobian(const Problem<Dim>& problem, const Body<Dim>& body
   return jacobian;
 }
 
+template State<1> step_derivative(DerivativeSimulation<1>&, const State<1>&, double);
+template Field<1> acceleration_derivative(DerivativeSimulation<1>&, const Field<1>&);
+template Eigen::MatrixXd step_jacobian(const Problem<1>&, const Body<1>&, double);
 template State<2> step_derivative(DerivativeSimulation<2>&, const State<2>&, double);
 template Field<2> acceleration_derivative(DerivativeSimulation<2>&, const Field<2>&);
 template Eigen::MatrixXd step_jacobian(const Problem<2>&, const Body<2>&, double);
+template State<3> step_derivative(DerivativeSimulation<3>&, const State<3>&, double);
+template Field<3> acceleration_derivative(DerivativeSimulation<3>&, const Field<3>&);
+template Eigen::MatrixXd step_jacobian(const Problem<3>&, const Body<3>&, double);
 
 }  // namespace sphstab::solver

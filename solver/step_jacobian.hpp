@@ -28,8 +28,14 @@ Field<Dim> acceleration_derivative(DerivativeSimulation<Dim>& simulation, const 
 template <int Dim>
 Eigen::MatrixXd step_jacobian(const Problem<Dim>& problem, const Body<Dim>& body, double time_step);
 
+extern template State<1> step_derivative(DerivativeSimulation<1>&, const State<1>&, double);
+extern template Field<1> acceleration_derivative(DerivativeSimulation<1>&, const Field<1>&);
+extern template Eigen::MatrixXd step_jacobian(const Problem<1>&, const Body<1>&, double);
 extern template State<2> step_derivative(DerivativeSimulation<2>&, const State<2>&, double);
 extern template Field<2> acceleration_derivative(DerivativeSimulation<2>&, const Field<2>&);
 extern template Eigen::MatrixXd step_jacobian(const Problem<2>&, const Body<2>&, double);
+extern template State<3> step_derivative(DerivativeSimulation<3>&, const State<3>&, double);
+extern template Field<3> acceleration_derivative(DerivativeSimulation<3>&, const Field<3>&);
+extern template Eigen::MatrixXd step_jacobian(const Problem<3>&, const Body<3>&, double);
 
 }  // namespace sphstab::solver

@@ -29,8 +29,14 @@ Overloaded(Handlers...) -> Overloaded<Handlers...>;
 /// Calls `answer` with the dimension as a compile-time constant: the one place where a run-time dimension becomes one.
 template <class Answer>
 Json in_dimension(const Case& input, const Answer& answer) {
-  if (input.dimension() == 2) return answer(std::integral_constant<int, 2>());
-  throw InvalidInput(fmt::format("dimension: {} is not 2, the only dimension that has lattices so far", input.dimension()));
+  switch (input.dimension()) {
+    case 1:
+      return answer(std::integral_constant<int, 1>());
+    case 2:
+      return answer(std::integral_constant<int, 2>());
+    default:
+      return answer(std::integral_constant<int, 3>());
+  }
 }
 
 template <int Rows>

@@ -126,6 +126,8 @@ GrowthFit GrowthRun<Dim>::operator()(double time_step, long horizon) {
   return fit;
 }
 
+template class GrowthRun<1>;
 template class GrowthRun<2>;
+template class GrowthRun<3>;
 
 }  // namespace sphstab::study

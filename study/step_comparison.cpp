@@ -113,9 +113,17 @@ StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& 
   return {run(), theory_step(problem, choice), bulk_step(problem)};
 }
 
+template std::optional<double> theory_step(const Problem<1>&, const BodyChoice<1>&);
+template std::optional<double> bulk_step(const Problem<1>&);
+template solver::Field<1> critical_mode_displacement(const Problem<1>&, const BodyChoice<1>&, const Body<1>&);
+template StepComparison compare_step(const Problem<1>&, const BodyChoice<1>&, const RunOptions&, const GrowthProbe&);
 template std::optional<double> theory_step(const Problem<2>&, const BodyChoice<2>&);
 template std::optional<double> bulk_step(const Problem<2>&);
 template solver::Field<2> critical_mode_displacement(const Problem<2>&, const BodyChoice<2>&, const Body<2>&);
 template StepComparison compare_step(const Problem<2>&, const BodyChoice<2>&, const RunOptions&, const GrowthProbe&);
+template std::optional<double> theory_step(const Problem<3>&, const BodyChoice<3>&);
+template std::optional<double> bulk_step(const Problem<3>&);
+template solver::Field<3> critical_mode_displacement(const Problem<3>&, const BodyChoice<3>&, const Body<3>&);
+template StepComparison compare_step(const Problem<3>&, const BodyChoice<3>&, const RunOptions&, const GrowthProbe&);
 
 }  // namespace sphstab::study
