@@ -162,7 +162,9 @@ std::span<const CaseCommand> case_commands() {
 int main(int argc, char** argv) {
   using namespace sphstab;
   try {
-    return cli::Program().run(argc, argv);
+    const int status = cli::Program().run(argc, argv);
+    if (!std::cout.flush()) throw InvalidInput("standard output: cannot be written");
+    return status;
   } catch (const InvalidInput& error) {
     std::cerr << "sphstab: " << error.what() << "\n";
     return cli::ExitStatus::bad_input;
