@@ -2,6 +2,7 @@
 #include "study/answers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,8 @@ Overloaded(Handlers...) -> Overloaded<Handlers...>;
 template <class Answer>
 Json in_dimension(const Case& input, const Answer& answer) {
   if (input.dimension() == 2) return answer(std::integral_constant<int, 2>());
-  throw InvalidInput(fmt::format("dimension: {} is not 2, the only dimension that has lattices so far", input.dimension()));
+  throw InvalidInput(
+      fmt::format("dimension: {} is not 2, the only dimension that has lattices so far", input.dimension()));
 }
 
 template <int Rows>
@@ -98,6 +100,19 @@ Json equivalents(const Problem<Dim>& problem, double critical_time_step) {
   return rows;
 }
 
+/// Bodies and boxes stay far from the range of an int, and from hours of work.
+constexpr int largest_count = 1000000;
+
+/// The counts of a body or a box. Throws InvalidInput where they multiply to more than largest_count.
+template <int Dim>
+std::optional<LatticeIndex<Dim>> make_size(const Case& input, std::string_view key) {
+  const auto counts = make_counts<Dim>(input, key);
+  if (counts && counts->template cast<double>().prod() > largest_count)
+    throw InvalidInput(fmt::format("{}: {} multiply to more than {}", key,
+                                   fmt::join(counts->data(), counts->data() + Dim, ","), largest_count));
+  return counts;
+}
+
 /// The growth per step that the user accepts: tolerated_growth_per_step, or one e-folding over `steps`.
 std::optional<double> tolerated_growth(const Case& input) {
   const auto growth = input.number("tolerated_growth_per_step"), steps = input.number("steps");
@@ -125,7 +140,7 @@ Json time_step_answer(const Case& input) {
                                  {"holds", step.is_number() && *bound <= step.get<double>()}};
   if (input.has("wave_vector") || input.has("mode"))
     answer["mode_limit"] = to_json<Dim>(analysis::mode_limit(problem, make_wave_vector<Dim>(input)));
-  else if (const auto box = make_counts<Dim>(input, "box"))
+  else if (const auto box = make_size<Dim>(input, "box"))
     answer["box_limit"] = to_json<Dim>(analysis::paper_limit(problem, *box));
   if (const auto growth = tolerated_growth(input)) {
     const auto tolerable = analysis::step_for_growth(problem, *growth);
@@ -161,7 +176,7 @@ constexpr int default_patch_cells = 16;
 
 template <int Dim>
 BodyChoice<Dim> body_choice(const Case& input) {
-  const auto patch = make_counts<Dim>(input, "patch"), plate = make_counts<Dim>(input, "plate");
+  const auto patch = make_size<Dim>(input, "patch"), plate = make_size<Dim>(input, "plate");
   if (patch && plate) throw InvalidInput("patch: cannot be given with plate");
   if (plate) return {Boundary::free, *plate};
   return {Boundary::periodic, patch.value_or(LatticeIndex<Dim>::Constant(default_patch_cells))};
