@@ -47,7 +47,8 @@ Json answer_text(const std::string& text) {
 
 void answer_all(std::istream& lines) {
   for (std::string text; std::getline(lines, text);)
-    if (text.find_first_not_of(" \t\r") != std::string::npos) std::cout << io::to_json_line(answer_text(text)) << std::endl;
+    if (text.find_first_not_of(" \t\r") != std::string::npos)
+      std::cout << io::to_json_line(answer_text(text)) << std::endl;
 }
 
 }  // namespace
@@ -60,6 +61,7 @@ int run_batch(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw InvalidInput("batch: '" + path + "' cannot be read");
   answer_all(file);
+  if (file.bad()) throw InvalidInput("batch: '" + path + "' cannot be read");
   return ExitStatus::done;
 }
 

@@ -39,6 +39,7 @@ int run_batch(const std::string& path);
 /// `list`: names and parameters of what can be named in a case; everything if `topic` is empty.
 Json list_answer(const std::string& topic);
 std::string describe_list(const Json& answer);
-std::span<const std::string_view> list_topics();
+/// The same as one table, a row a name, with the topic in front.
+Json list_rows(const Json& answer);
 
 }  // namespace sphstab::cli

@@ -71,8 +71,6 @@ Json list_topic(std::string_view topic) {
 
 }  // namespace
 
-std::span<const std::string_view> list_topics() { return topics; }
-
 Json list_answer(const std::string& topic) {
   if (!topic.empty() && std::find(topics.begin(), topics.end(), topic) == topics.end())
     throw unknown_word("list", topic, topics);
@@ -80,6 +78,17 @@ Json list_answer(const std::string& topic) {
   for (const auto name : topics)
     if (topic.empty() || topic == name) answer[std::string(name)] = list_topic(name);
   return answer;
+}
+
+Json list_rows(const Json& answer) {
+  Json rows = Json::array();
+  for (const auto& [topic, names] : answer.items())
+    for (const Json& name : names) {
+      Json row{{"topic", topic}};
+      row.update(name);
+      rows.push_back(std::move(row));
+    }
+  return rows;
 }
 
 std::string describe_list(const Json& answer) {

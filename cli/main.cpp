@@ -45,7 +45,7 @@ struct Action {
 class Program {
  public:
   Program() {
-    app_.require_subcommand(1);
+    app_.allow_extras();
     app_.set_version_flag("--version", "sphstab " SPHSTAB_VERSION);
     for (const CaseCommand& command : case_commands())
       if (command.describe != nullptr) add_case_command(command);
@@ -59,8 +59,10 @@ class Program {
       app_.parse(argc, argv);
     } catch (const CLI::Success& success) {
       return app_.exit(success);
+    } catch (const CLI::ArgumentMismatch& error) {
+      const std::string_view message = error.what();
+      throw InvalidInput(std::string(message.substr(0, message.find(':'))) + ": takes exactly one value");
     } catch (const CLI::ParseError& error) {
-      if (argc == 1) std::cerr << app_.help();
       throw InvalidInput(error.what());
     }
     refuse_rest(app_, "command", command_names());
@@ -69,7 +71,8 @@ class Program {
         refuse_rest(*action.app, "option", option_names(*action.app));
         return action.run();
       }
-    return ExitStatus::internal_fault;
+    std::cerr << app_.help();
+    throw InvalidInput("command: missing");
   }
 
  private:
@@ -99,7 +102,9 @@ class Program {
     add_format(*app, format_);
     actions_.push_back({app, [this] {
                           check_format(format_);
-                          print(list_answer(argument_), format_, describe_list);
+                          const Json answer = list_answer(argument_);
+                          const bool nested = format_ == "text" || format_ == "json";
+                          print(nested ? answer : list_rows(answer), format_, describe_list);
                           return static_cast<int>(ExitStatus::done);
                         }});
   }
@@ -110,7 +115,8 @@ class Program {
     app->add_option("name", options->name, "which report [zhang-plate]")->type_name("");
     app->add_option("--output", options->output, "folder of reports [reports]")->type_name("FOLDER");
     app->add_flag("--overwrite", options->overwrite, "replace a report that exists");
-    app->add_flag("--check", options->check, "write nothing; exit with status 1 if a claim of the report does not hold");
+    app->add_flag("--check", options->check,
+                  "write nothing; exit with status 1 if a claim of the report does not hold");
     actions_.push_back({app, [options] { return run_report(*options); }});
   }
 
@@ -134,7 +140,8 @@ class Program {
     throw unknown_word(what, rest.front().substr(0, rest.front().find('=')), allowed);
   }
 
-  CLI::App app_{"Which time step is safe for elastic solids in SPH, and what is not: theory, and a solver that proves it."};
+  CLI::App app_{
+      "Which time step is safe for elastic solids in SPH, and what is not: theory, and a solver that proves it."};
   std::vector<Action> actions_;
   std::string format_ = "text";
   std::string argument_;
@@ -155,7 +162,9 @@ std::span<const CaseCommand> case_commands() {
 int main(int argc, char** argv) {
   using namespace sphstab;
   try {
-    return cli::Program().run(argc, argv);
+    const int status = cli::Program().run(argc, argv);
+    if (!std::cout.flush()) throw InvalidInput("standard output: cannot be written");
+    return status;
   } catch (const InvalidInput& error) {
     std::cerr << "sphstab: " << error.what() << "\n";
     return cli::ExitStatus::bad_input;

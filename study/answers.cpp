@@ -2,6 +2,7 @@
 #include "study/answers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,15 +41,15 @@ Json in_dimension(const Case& input, const Answer& answer) {
 }
 
 template <int Rows>
-Json to_json(const Vector<Rows>& vector) {
+Json components(const Vector<Rows>& vector) {
   return std::vector<double>(vector.data(), vector.data() + Rows);
 }
 
 template <int Dim>
-Json to_json(const Tensor<Dim>& tensor) {
-  Json rows = Json::array();
-  for (int i = 0; i < Dim; ++i) rows.push_back(to_json<Dim>(Vector<Dim>(tensor.row(i))));
-  return rows;
+Json rows(const Tensor<Dim>& tensor) {
+  Json list = Json::array();
+  for (int i = 0; i < Dim; ++i) list.push_back(components<Dim>(tensor.row(i)));
+  return list;
 }
 
 Json to_json(std::complex<double> value) { return {value.real(), value.imag()}; }
@@ -65,7 +66,7 @@ Json to_json(const analysis::ComplexMatrix& matrix) {
 
 template <int Dim>
 Json to_json(const analysis::CriticalMode<Dim>& mode) {
-  return {{"wave_vector", to_json<Dim>(mode.wave_vector)},
+  return {{"wave_vector", components<Dim>(mode.wave_vector)},
           {"branch", mode.branch == analysis::Branch::longitudinal ? "longitudinal" : "transverse"},
           {"omega", mode.omega}};
 }
@@ -104,6 +105,19 @@ Json equivalents(const Problem<Dim>& problem, double critical_time_step) {
   return rows;
 }
 
+/// Bodies and boxes stay far from the range of an int, and from hours of work.
+constexpr int largest_count = 1000000;
+
+/// The counts of a body or a box. Throws InvalidInput where they multiply to more than largest_count.
+template <int Dim>
+std::optional<LatticeIndex<Dim>> make_size(const Case& input, std::string_view key) {
+  const auto counts = make_counts<Dim>(input, key);
+  if (counts && counts->template cast<double>().prod() > largest_count)
+    throw InvalidInput(fmt::format("{}: {} multiply to more than {}", key,
+                                   fmt::join(counts->data(), counts->data() + Dim, ","), largest_count));
+  return counts;
+}
+
 /// The growth per step that the user accepts: tolerated_growth_per_step, or one e-folding over `steps`.
 std::optional<double> tolerated_growth(const Case& input) {
   const auto growth = input.number("tolerated_growth_per_step"), steps = input.number("steps");
@@ -131,7 +145,7 @@ Json time_step_answer(const Case& input) {
                                  {"holds", step.is_number() && *bound <= step.get<double>()}};
   if (input.has("wave_vector") || input.has("mode"))
     answer["mode_limit"] = to_json<Dim>(analysis::mode_limit(problem, make_wave_vector<Dim>(input)));
-  else if (const auto box = make_counts<Dim>(input, "box"))
+  else if (const auto box = make_size<Dim>(input, "box"))
     answer["box_limit"] = to_json<Dim>(analysis::paper_limit(problem, *box));
   if (const auto growth = tolerated_growth(input)) {
     const auto tolerable = analysis::step_for_growth(problem, *growth);
@@ -141,7 +155,7 @@ Json time_step_answer(const Case& input) {
     answer["spectral_radius_at_time_step"] = analysis::zone_spectral_radius(problem, *time_step);
   const auto zeros = analysis::zero_energy_modes(problem);
   answer["zero_energy_modes"] = Json::array();
-  for (const auto& wave_vector : zeros.wave_vectors) answer["zero_energy_modes"].push_back(to_json<Dim>(wave_vector));
+  for (const auto& wave_vector : zeros.wave_vectors) answer["zero_energy_modes"].push_back(components<Dim>(wave_vector));
   answer["zero_energy_modes_complete"] = zeros.complete;
   return answer;
 }
@@ -154,7 +168,7 @@ Json matrix_answer(const Case& input) {
   const auto spectrum = analysis::mode_spectrum(problem, wave_vector, time_step);
   Json eigenvalues = Json::array();
   for (const auto& eigenvalue : spectrum.eigenvalues) eigenvalues.push_back(to_json(eigenvalue));
-  return {{"wave_vector", to_json<Dim>(wave_vector)},
+  return {{"wave_vector", components<Dim>(wave_vector)},
           {"time_step", time_step},
           {"state", analysis::state_names(problem)},
           {"amplification_matrix", to_json(analysis::amplification_matrix(problem, wave_vector, time_step))},
@@ -167,7 +181,7 @@ constexpr int default_patch_cells = 16;
 
 template <int Dim>
 BodyChoice<Dim> body_choice(const Case& input) {
-  const auto patch = make_counts<Dim>(input, "patch"), plate = make_counts<Dim>(input, "plate");
+  const auto patch = make_size<Dim>(input, "patch"), plate = make_size<Dim>(input, "plate");
   if (patch && plate) throw InvalidInput("patch: cannot be given with plate");
   if (plate) return {Boundary::free, *plate};
   return {Boundary::periodic, patch.value_or(LatticeIndex<Dim>::Constant(default_patch_cells))};
@@ -220,10 +234,10 @@ Json sums_answer(const Case& input) {
   const auto sums =
       analysis::lattice_sums(make_lattice<Dim>(input), make_kernel<Dim>(input), neighbour_rule(input),
                              make_wave_vector<Dim>(input), input.required_number("artificial_stress_exponent"));
-  return {{"A", to_json<Dim>(sums.A)},
-          {"B", to_json<Dim>(sums.B)},
+  return {{"A", components<Dim>(sums.A)},
+          {"B", rows<Dim>(sums.B)},
           {"beta_sum", sums.beta_sum},
-          {"f", to_json<Dim>(sums.f)},
+          {"f", rows<Dim>(sums.f)},
           {"neighbours", sums.neighbours}};
 }
 

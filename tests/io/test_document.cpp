@@ -113,5 +113,5 @@ TEST_CASE("chosen columns have their own headers and number formats", "[fast]") 
 
 TEST_CASE("the formats have the names that users write", "[fast]") {
   CHECK(from_name<Format>("format", "latex") == Format::latex);
-  CHECK_THROWS_WITH(from_name<Format>("format", "yaml"), Catch::StartsWith("format: 'yaml' is not known; did you mean"));
+  CHECK_THROWS_WITH(from_name<Format>("format", "yaml"), Catch::EndsWith("Allowed: json, csv, markdown, latex"));
 }
