@@ -17,7 +17,8 @@ constexpr double grid_resolution = 0.25;
 /// Boxes that cannot hold more than this above the best value, relative, are done.
 constexpr double target_enclosure = 1e-13;
 /// Work budget in terms of the series evaluated with derivatives, some 10 ns each.
-constexpr int term_budget = 400000;
+template <int Dim>
+constexpr long term_budget = Dim == 3 ? 20'000'000 : 400'000;
 /// Steps of the Newton iteration are cut to this over R.
 constexpr double longest_step = 0.3;
 constexpr int newton_steps = 60;
@@ -216,7 +217,7 @@ class MaximumSearch {
 
   void examine(const LiveBox<Dim>& live, std::vector<LiveBox<Dim>>& next) {
     if (is_safe(live.box)) return;
-    if (evaluations_ * static_cast<int>(series_.terms().size()) > term_budget) {
+    if (evaluations_ * static_cast<long>(series_.terms().size()) > term_budget<Dim>) {
       upper_ = std::max(upper_, live.bound);
       left_over_.push_back(live.box.centre);
       return;

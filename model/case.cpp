@@ -98,7 +98,9 @@ Kernel<Dim> make_kernel(const Case& input) {
 
 template <int Dim>
 Lattice<Dim> make_lattice(const Case& input) {
-  return Lattice<Dim>(enumerator<LatticeKind>(input, "lattice"), input.required_number("spacing"));
+  constexpr std::array default_kind{LatticeKind::chain, LatticeKind::square, LatticeKind::cubic};
+  const auto kind = input.has("lattice") ? enumerator<LatticeKind>(input, "lattice") : default_kind[Dim - 1];
+  return Lattice<Dim>(kind, input.required_number("spacing"));
 }
 
 NeighbourRule neighbour_rule(const Case& input) { return enumerator<NeighbourRule>(input, "neighbours"); }
@@ -113,6 +115,8 @@ Problem<Dim> make_problem(const Case& input) {
                        .scheme = make_scheme(input),
                        .integrator = enumerator<Integrator>(input, "integrator"),
                        .displacement_gradient = make_tensor<Dim>(input, "displacement_gradient")};
+  if (Dim != 2 && problem.plane != Plane::strain)
+    throw InvalidInput(fmt::format("plane: {} is for 2 dimensions, not {}", name_of(problem.plane), Dim));
   problem.material.lame(problem.plane);  // refuses ν = 0.5 in plane strain
   lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule);  // refuses no neighbour
   return problem;

@@ -24,7 +24,8 @@ using enum KeyGroup;
 
 const Key table[] = {
     {"dimension", integer, discretisation, "2", "number of space dimensions", {.low = 1.0, .high = 3.0}},
-    {"lattice", word, discretisation, "square", "arrangement of the particles", any_number, all_names<LatticeKind>},
+    {"lattice", word, discretisation, "", "arrangement of the particles; default chain in 1D, square in 2D, cubic in 3D",
+     any_number, all_names<LatticeKind>},
     {"spacing", number, discretisation, "1", "particle spacing, a length", positive},
     {"kernel", word, discretisation, "cubic-spline", "smoothing kernel", any_number, all_names<KernelFamily>},
     {"smoothing_length", number, discretisation, "", "smoothing length h, a length; default 1.3 spacings", positive},
@@ -38,7 +39,7 @@ const Key table[] = {
     {"poisson_ratio", number, material, "", "Poisson's ratio, above -1 and below 0.5"},
     {"bulk_modulus", number, material, "", "bulk modulus, with shear_modulus", positive},
     {"shear_modulus", number, material, "", "shear modulus, stress over engineering shear strain", positive},
-    {"plane", word, material, "strain", "plane strain or plane stress", any_number, all_names<Plane>},
+    {"plane", word, material, "strain", "plane strain or plane stress (2D)", any_number, all_names<Plane>},
 
     {"scheme", word, scheme, "", "discretisation: tl-linear (Zhang et al., total Lagrangian, linear)", any_number,
      all_names<Formulation>},
@@ -58,7 +59,7 @@ const Key table[] = {
     {"tolerated_growth_per_step", number, time, "", "growth per step, max abs(lambda) - 1, that is acceptable", positive},
     {"steps", number, time, "", "instead of it: number of steps in which a factor e is acceptable", at_least_one},
 
-    {"patch", integers, search, "", "periodic cells along each primitive vector; default 16 each", at_least_one},
+    {"patch", integers, search, "", "periodic cells along each primitive vector; default 16 each, 8 in 3D", at_least_one},
     {"plate", integers, search, "", "particles of a free rectangular plate, instead of patch", {.low = 2.0}},
     {"seed", word, search, "noise", "start from noise, or from the critical mode of the theory", any_number, seed_words},
     {"noise_seed", integer, search, "1", "seed of the random numbers", not_negative},

@@ -177,14 +177,15 @@ Json matrix_answer(const Case& input) {
           {"power_bounded", spectrum.power_bounded}};
 }
 
-constexpr int default_patch_cells = 16;
+template <int Dim>
+constexpr int default_patch_cells = Dim == 3 ? 8 : 16;
 
 template <int Dim>
 BodyChoice<Dim> body_choice(const Case& input) {
   const auto patch = make_size<Dim>(input, "patch"), plate = make_size<Dim>(input, "plate");
   if (patch && plate) throw InvalidInput("patch: cannot be given with plate");
   if (plate) return {Boundary::free, *plate};
-  return {Boundary::periodic, patch.value_or(LatticeIndex<Dim>::Constant(default_patch_cells))};
+  return {Boundary::periodic, patch.value_or(LatticeIndex<Dim>::Constant(default_patch_cells<Dim>))};
 }
 
 Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
@@ -260,14 +261,7 @@ Json sums_answer(const Case& input, const Progress&) {
 }
 
 Json kernel_answer(const Case& input, const Progress&) {
-  switch (input.dimension()) {
-    case 1:
-      return kernel_answer<1>(input);
-    case 2:
-      return kernel_answer<2>(input);
-    default:
-      return kernel_answer<3>(input);
-  }
+  return in_dimension(input, [&](auto dimension) { return kernel_answer<dimension()>(input); });
 }
 
 }  // namespace sphstab::study
