@@ -16,7 +16,8 @@ namespace {
 /// σ w of the coarse grid.
 constexpr double grid_resolution = 0.1;
 /// Work budget in terms of the series evaluated with derivatives, some 10 ns each.
-constexpr long term_budget = 20'000'000;
+template <int Dim>
+constexpr long term_budget = Dim == 3 ? 100'000'000 : 20'000'000;
 constexpr int newton_steps = 12;
 /// Newton's iteration has converged when it moves by less than this over R, or than rounding allows.
 constexpr double converged = 1e-12;
@@ -85,7 +86,7 @@ class ZeroSearch {
   }
 
   void examine(const PhaseBox<Dim>& box, std::vector<PhaseBox<Dim>>& next) {
-    if ((evaluated_terms_ += static_cast<long>(series_.terms().size())) > term_budget) {
+    if ((evaluated_terms_ += static_cast<long>(series_.terms().size())) > term_budget<Dim>) {
       complete_ = false;
       return;
     }

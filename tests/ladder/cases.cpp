@@ -8,45 +8,57 @@ namespace {
 
 constexpr double spacing = 0.37, density = 1.7, young_modulus = 2.9, poisson_ratio = 0.31;
 
-Tensor<2> base_gradient() {
-  Tensor<2> H;
-  H << 0.06, -0.03, 0.05, -0.09;
-  return H;
+constexpr std::array<double, 9> gradient_components{0.06, -0.03, 0.05, -0.09, 0.04, -0.02, 0.03, 0.01, -0.05};
+
+template <int Dim>
+Tensor<Dim> base_gradient() {
+  return Eigen::Map<const Tensor<Dim>>(gradient_components.data());
 }
 
 }  // namespace
 
-Problem<2> basic_problem(LatticeKind lattice, KernelFamily kernel, double h_over_spacing) {
-  return {.lattice = Lattice<2>(lattice, spacing),
-          .kernel = Kernel<2>(kernel, h_over_spacing * spacing),
+template <int Dim>
+std::vector<LatticeKind> lattices() {
+  std::vector<LatticeKind> kinds;
+  for (const auto& [kind, name] : Names<LatticeKind>::table)
+    if (dimension_of(kind) == Dim) kinds.push_back(kind);
+  return kinds;
+}
+
+template <int Dim>
+Problem<Dim> basic_problem(LatticeKind lattice, KernelFamily kernel, double h_over_spacing) {
+  return {.lattice = Lattice<Dim>(lattice, spacing),
+          .kernel = Kernel<Dim>(kernel, h_over_spacing * spacing),
           .material = Material::from_young_modulus(density, young_modulus, poisson_ratio)};
 }
 
-std::vector<NamedProblem> every_variant() {
+template <int Dim>
+std::vector<NamedProblem<Dim>> every_variant() {
   constexpr double h_over_spacing = 1.27;
-  std::vector<NamedProblem> variants;
-  for (const auto& [lattice, lattice_name] : Names<LatticeKind>::table) {
+  std::vector<NamedProblem<Dim>> variants;
+  for (const LatticeKind lattice : lattices<Dim>()) {
     for (const auto& [kernel, kernel_name] : Names<KernelFamily>::table)
-      variants.push_back(
-          {fmt::format("{} {}", kernel_name, lattice_name), basic_problem(lattice, kernel, h_over_spacing)});
-    const auto add = [&variants, kind = lattice, name = lattice_name](std::string_view what, auto change) {
-      Problem<2> problem = basic_problem(kind, KernelFamily::cubic_spline, h_over_spacing);
+      variants.push_back({fmt::format("{} {}", kernel_name, name_of(lattice)),
+                          basic_problem<Dim>(lattice, kernel, h_over_spacing)});
+    const auto add = [&variants, lattice](std::string_view what, auto change) {
+      Problem<Dim> problem = basic_problem<Dim>(lattice, KernelFamily::cubic_spline, h_over_spacing);
       change(problem);
-      variants.push_back({fmt::format("{} {}", what, name), problem});
+      variants.push_back({fmt::format("{} {}", what, name_of(lattice)), problem});
     };
-    add("plane stress", [](auto& p) { p.plane = Plane::stress; });
     add("nearest neighbours", [](auto& p) { p.neighbour_rule = NeighbourRule::nearest; });
     add("normalised", [](auto& p) { p.scheme.kernel_normalisation = KernelNormalisation::sum; });
     add("damped", [](auto& p) { p.scheme.damping = Damping{0.4}; });
-    add("frozen density on a base state", [](auto& p) { p.displacement_gradient = base_gradient(); });
+    add("frozen density on a base state", [](auto& p) { p.displacement_gradient = base_gradient<Dim>(); });
+    if (Dim == 2) add("plane stress", [](auto& p) { p.plane = Plane::stress; });
     for (const Plane plane : {Plane::strain, Plane::stress})
-      add(fmt::format("density of Eq. 6 on a base state, plane {}", name_of(plane)), [plane](auto& p) {
-        p.plane = plane;
-        p.displacement_gradient = base_gradient();
-        p.scheme.momentum_density = MomentumDensity::equation_of_state;
-      });
+      if (plane == Plane::strain || Dim == 2)
+        add(fmt::format("density of Eq. 6 on a base state, plane {}", name_of(plane)), [plane](auto& p) {
+          p.plane = plane;
+          p.displacement_gradient = base_gradient<Dim>();
+          p.scheme.momentum_density = MomentumDensity::equation_of_state;
+        });
     add("everything at once", [](auto& p) {
-      p.displacement_gradient = base_gradient();
+      p.displacement_gradient = base_gradient<Dim>();
       p.scheme.momentum_density = MomentumDensity::equation_of_state;
       p.scheme.kernel_normalisation = KernelNormalisation::sum;
       p.scheme.damping = Damping{0.4};
@@ -54,5 +66,54 @@ std::vector<NamedProblem> every_variant() {
   }
   return variants;
 }
+
+template <>
+std::vector<LatticeIndex<1>> patches() {
+  return {LatticeIndex<1>(4), LatticeIndex<1>(7), LatticeIndex<1>(12)};
+}
+template <>
+std::vector<LatticeIndex<2>> patches() {
+  return {{4, 4}, {5, 3}, {6, 7}};
+}
+template <>
+std::vector<LatticeIndex<3>> patches() {
+  return {{2, 2, 2}, {3, 2, 4}};
+}
+
+template <>
+LatticeIndex<1> small_patch() {
+  return LatticeIndex<1>(20);
+}
+template <>
+LatticeIndex<2> small_patch() {
+  return {5, 4};
+}
+template <>
+LatticeIndex<3> small_patch() {
+  return {3, 2, 3};
+}
+
+template <>
+LatticeIndex<1> running_patch() {
+  return LatticeIndex<1>(31);
+}
+template <>
+LatticeIndex<2> running_patch() {
+  return {6, 5};
+}
+template <>
+LatticeIndex<3> running_patch() {
+  return {3, 4, 3};
+}
+
+template std::vector<LatticeKind> lattices<1>();
+template std::vector<LatticeKind> lattices<2>();
+template std::vector<LatticeKind> lattices<3>();
+template Problem<1> basic_problem(LatticeKind, KernelFamily, double);
+template Problem<2> basic_problem(LatticeKind, KernelFamily, double);
+template Problem<3> basic_problem(LatticeKind, KernelFamily, double);
+template std::vector<NamedProblem<1>> every_variant();
+template std::vector<NamedProblem<2>> every_variant();
+template std::vector<NamedProblem<3>> every_variant();
 
 }  // namespace sphstab::ladder

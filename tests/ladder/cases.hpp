@@ -8,16 +8,33 @@
 
 namespace sphstab::ladder {
 
+template <int Dim>
 struct NamedProblem {
   std::string name;
-  Problem<2> problem;
+  Problem<Dim> problem;
 };
+
+/// The lattices of a dimension.
+template <int Dim>
+std::vector<LatticeKind> lattices();
 
 /// Every kernel on every lattice, and on every lattice every term of the scheme switched on; moduli, density and spacing
 /// are no round numbers, so that no factor is 1 by accident.
-std::vector<NamedProblem> every_variant();
+template <int Dim>
+std::vector<NamedProblem<Dim>> every_variant();
 
 /// A problem in plane strain without any optional term.
-Problem<2> basic_problem(LatticeKind lattice, KernelFamily kernel, double h_over_spacing);
+template <int Dim>
+Problem<Dim> basic_problem(LatticeKind lattice, KernelFamily kernel, double h_over_spacing);
+
+/// Periodic patches that admit zone centre, boundary and corners, and modes that are none of these.
+template <int Dim>
+std::vector<LatticeIndex<Dim>> patches();
+
+/// One of them for dense matrices, and one with a few more modes for runs.
+template <int Dim>
+LatticeIndex<Dim> small_patch();
+template <int Dim>
+LatticeIndex<Dim> running_patch();
 
 }  // namespace sphstab::ladder

@@ -20,21 +20,34 @@ constexpr double rounding = 1e-13;
 /// Eigenvalues of a dense matrix of a hundred rows; the largest is simple and its condition of order ten.
 constexpr double eigenvalue_tolerance = 1e-11;
 
-/// Patches that admit zone centre, boundary and corners, and modes that are none of these.
-const LatticeIndex<2> patches[] = {{4, 4}, {5, 3}, {6, 7}};
-
 /// Every wave vector that a patch admits.
-std::vector<Vector<2>> admitted_wave_vectors(const Lattice<2>& lattice, const LatticeIndex<2>& cells) {
-  std::vector<Vector<2>> wave_vectors;
-  for (int i = 0; i < cells[0]; ++i)
-    for (int j = 0; j < cells[1]; ++j)
-      wave_vectors.push_back(lattice.reciprocal_vectors() *
-                             Vector<2>(static_cast<double>(i) / cells[0], static_cast<double>(j) / cells[1]));
+template <int Dim>
+std::vector<Vector<Dim>> admitted_wave_vectors(const Lattice<Dim>& lattice, const LatticeIndex<Dim>& cells) {
+  std::vector<Vector<Dim>> wave_vectors;
+  for (int flat = 0; flat < cells.prod(); ++flat) {
+    Vector<Dim> fraction;
+    for (int axis = 0, rest = flat; axis < Dim; rest /= cells[axis], ++axis)
+      fraction[axis] = static_cast<double>(rest % cells[axis]) / cells[axis];
+    wave_vectors.push_back(lattice.reciprocal_vectors() * fraction);
+  }
   return wave_vectors;
 }
 
-double patch_step(const Problem<2>& problem, const LatticeIndex<2>& cells) {
-  return std::get<analysis::ConditionallyStable<2>>(analysis::patch_limit(problem, cells)).critical_time_step;
+template <int Dim>
+double patch_step(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
+  return std::get<analysis::ConditionallyStable<Dim>>(analysis::patch_limit(problem, cells)).critical_time_step;
+}
+
+template <int Dim>
+double bulk_step(const Problem<Dim>& problem) {
+  return std::get<analysis::ConditionallyStable<Dim>>(analysis::bulk_limit(problem)).critical_time_step;
+}
+
+/// ω_max² of the infinite lattice: the scale of the dynamical matrix also on a patch that admits zero-energy modes only.
+template <int Dim>
+double largest_frequency_squared(const Problem<Dim>& problem) {
+  const auto limit = std::get<analysis::ConditionallyStable<Dim>>(analysis::bulk_limit(problem));
+  return limit.mode.omega * limit.mode.omega;
 }
 
 double spectral_radius(const Eigen::MatrixXd& matrix) {
@@ -43,71 +56,74 @@ double spectral_radius(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-TEST_CASE("rung 2: the dynamical matrix is the running solver's force on a Bloch wave, for every mode", "[ladder]") {
-  for (const auto& [name, problem] : ladder::every_variant())
-    for (const auto& cells : patches) {
-      const auto patch = periodic_patch<2>(problem, cells);
-      double scale = 0.0, worst = 0.0;
-      for (const auto& k : admitted_wave_vectors(problem.lattice, cells)) {
-        const Tensor<2> M = analysis::dynamical_matrix(problem, k);
-        scale = std::max(scale, M.norm());
-        worst = std::max(worst, (solver::bloch_acceleration_matrix(problem, patch, k) + M).norm());
+TEMPLATE_TEST_CASE_SIG("rung 2: the dynamical matrix is the running solver's force on a Bloch wave, for every mode",
+                       "[ladder]", ((int Dim), Dim), 1, 2, 3) {
+  for (const auto& [name, problem] : ladder::every_variant<Dim>())
+    for (const auto& cells : ladder::patches<Dim>()) {
+      const auto patch = periodic_patch<Dim>(problem, cells);
+      double worst = 0.0;
+      for (const auto& k : admitted_wave_vectors<Dim>(problem.lattice, cells)) {
+        const Tensor<Dim> M = analysis::dynamical_matrix<Dim>(problem, k);
+        worst = std::max(worst, (solver::bloch_acceleration_matrix<Dim>(problem, patch, k) + M).norm());
       }
       INFO(name << ", patch " << cells.transpose());
-      CHECK(worst < rounding * scale);
+      CHECK(worst < rounding * largest_frequency_squared<Dim>(problem));
     }
 }
 
-TEST_CASE("rung 3: the amplification matrix is one real time step, for every mode and integrator", "[ladder]") {
-  for (auto& [name, problem] : ladder::every_variant())
+TEMPLATE_TEST_CASE_SIG("rung 3: the amplification matrix is one real time step, for every mode and integrator",
+                       "[ladder]", ((int Dim), Dim), 1, 2, 3) {
+  for (auto& [name, problem] : ladder::every_variant<Dim>())
     for (const auto& [integrator, integrator_name] : Names<Integrator>::table)
-      for (const auto& cells : patches) {
+      for (const auto& cells : ladder::patches<Dim>()) {
         problem.integrator = integrator;
-        const auto patch = periodic_patch<2>(problem, cells);
-        const double time_step = 0.5 * patch_step(problem, cells);
+        const auto patch = periodic_patch<Dim>(problem, cells);
+        const double time_step = 0.5 * bulk_step<Dim>(problem);
         double scale = 0.0, worst = 0.0;
-        for (const auto& k : admitted_wave_vectors(problem.lattice, cells)) {
-          const analysis::ComplexMatrix E = analysis::amplification_matrix(problem, k, time_step);
+        for (const auto& k : admitted_wave_vectors<Dim>(problem.lattice, cells)) {
+          const analysis::ComplexMatrix E = analysis::amplification_matrix<Dim>(problem, k, time_step);
           scale = std::max(scale, E.norm());
-          worst = std::max(worst, (solver::bloch_step_matrix(problem, patch, k, time_step) - E).norm());
+          worst = std::max(worst, (solver::bloch_step_matrix<Dim>(problem, patch, k, time_step) - E).norm());
         }
         INFO(name << ", " << integrator_name << ", patch " << cells.transpose());
         CHECK(worst < rounding * scale);
       }
 }
 
-TEST_CASE("rung 4: below the limit the Jacobian of a step acts on every Bloch wave as the amplification matrix",
-          "[ladder]") {
-  constexpr int state = 4;
-  const LatticeIndex<2> cells(5, 4);
-  for (auto& [name, problem] : ladder::every_variant())
+TEMPLATE_TEST_CASE_SIG(
+    "rung 4: below the limit the Jacobian of a step acts on every Bloch wave as the amplification matrix", "[ladder]",
+    ((int Dim), Dim), 1, 2, 3) {
+  constexpr int state = 2 * Dim;
+  const auto cells = ladder::small_patch<Dim>();
+  for (auto& [name, problem] : ladder::every_variant<Dim>())
     for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
       problem.integrator = integrator;
-      const auto patch = periodic_patch<2>(problem, cells);
-      const double time_step = 0.9 * patch_step(problem, cells);
+      const auto patch = periodic_patch<Dim>(problem, cells);
+      const double time_step = 0.9 * patch_step<Dim>(problem, cells);
       const Eigen::MatrixXcd J = solver::step_jacobian(problem, patch, time_step).template cast<std::complex<double>>();
       double worst = 0.0;
-      for (const auto& k : admitted_wave_vectors(problem.lattice, cells)) {
+      for (const auto& k : admitted_wave_vectors<Dim>(problem.lattice, cells)) {
         Eigen::MatrixXcd U = Eigen::MatrixXcd::Zero(J.rows(), state);
         for (int a = 0; a < patch.size(); ++a)
           U.block<state, state>(state * a, 0).diagonal().setConstant(std::polar(1.0, k.dot(patch.position[a])));
-        worst = std::max(worst, (J * U - U * analysis::amplification_matrix(problem, k, time_step)).norm());
+        worst = std::max(worst, (J * U - U * analysis::amplification_matrix<Dim>(problem, k, time_step)).norm());
       }
       INFO(name << ", " << integrator_name);
       CHECK(worst < rounding * J.norm());
     }
 }
 
-TEST_CASE("rung 4: above the limit the spectral radius of the solver's step is that of the theory", "[ladder]") {
-  const LatticeIndex<2> cells(5, 4);
-  for (auto& [name, problem] : ladder::every_variant())
+TEMPLATE_TEST_CASE_SIG("rung 4: above the limit the spectral radius of the solver's step is that of the theory",
+                       "[ladder]", ((int Dim), Dim), 1, 2, 3) {
+  const auto cells = ladder::small_patch<Dim>();
+  for (auto& [name, problem] : ladder::every_variant<Dim>())
     for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
       problem.integrator = integrator;
-      const auto patch = periodic_patch<2>(problem, cells);
-      const double time_step = 1.05 * patch_step(problem, cells);
+      const auto patch = periodic_patch<Dim>(problem, cells);
+      const double time_step = 1.05 * patch_step<Dim>(problem, cells);
       double radius = 0.0;
-      for (const auto& k : admitted_wave_vectors(problem.lattice, cells))
-        radius = std::max(radius, analysis::mode_spectrum(problem, k, time_step).spectral_radius);
+      for (const auto& k : admitted_wave_vectors<Dim>(problem.lattice, cells))
+        radius = std::max(radius, analysis::mode_spectrum<Dim>(problem, k, time_step).spectral_radius);
       INFO(name << ", " << integrator_name);
       CHECK(radius > 1.05);
       CHECK(std::abs(spectral_radius(solver::step_jacobian(problem, patch, time_step)) - radius) <
