@@ -74,7 +74,8 @@ std::string describe(const Json& answer) {
 CaseCommand dt_command() {
   return {"dt",
           "the critical time step of a scheme on an infinite lattice",
-          {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time},
+          {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time,
+           KeyGroup::growth},
           study::time_step_answer,
           describe};
 }

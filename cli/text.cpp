@@ -13,8 +13,8 @@ std::string numbers(const study::Json& list, int digits) {
   return text;
 }
 
-std::string number_or(const study::Json& number, std::string_view otherwise) {
-  return number.is_null() ? std::string(otherwise) : fmt::format("{:.12g}", number.get<double>());
+std::string number_or(const study::Json& number, std::string_view otherwise, int digits) {
+  return number.is_null() ? std::string(otherwise) : fmt::format("{:.{}g}", number.get<double>(), digits);
 }
 
 }  // namespace sphstab::cli

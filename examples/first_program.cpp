@@ -23,7 +23,7 @@ int main() {
 
   const auto plate = study::compare_step<2>(problem, {study::Boundary::free, {20, 10}}, {.tolerance = 1e-6});
   std::printf("20 x 10 plate, run:      %.6e s\n", plate.run.critical_time_step.value());
-  std::printf("20 x 10 plate, theory:   %.6e s\n", plate.theory.value());
+  std::printf("20 x 10 plate, theory:   %.6e s\n", plate.theory.critical_time_step.value());
 
   problem.scheme.kernel_normalisation = KernelNormalisation::sum;
   const auto normalised = study::compare_step<2>(problem, {study::Boundary::free, {20, 10}}, {.tolerance = 1e-6});

@@ -130,6 +130,8 @@ Kernel<Dim>::Kernel(KernelFamily family, double smoothing_length, double gaussia
     normalisation_ = sinc_5_normalisation[Dim - 1] / h_to_d;
   else
     normalisation_ = 1.0 / (integral_of_shape(powers_, Dim) * h_to_d);
+  if (!std::isnormal(normalisation_ / (smoothing_length * smoothing_length)))
+    throw InvalidInput(fmt::format("smoothing_length: {} makes a kernel that leaves the range of a double", smoothing_length));
 }
 
 template class Kernel<1>;

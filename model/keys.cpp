@@ -54,9 +54,9 @@ const Key table[] = {
     {"mode", integers, mode, "", "m,l of k = (m pi/(M spacing), l pi/(L spacing)), with box", any_number},
     {"box", integers, mode, "", "M,L of mode, in particles", at_least_one},
 
-    {"time_step", number, time, "", "time step", positive},
-    {"tolerated_growth_per_step", number, time, "", "growth per step, max abs(lambda) - 1, that is acceptable", positive},
-    {"steps", number, time, "", "instead of it: number of steps in which a factor e is acceptable", at_least_one},
+    {"time_step", number, time, "", "length of a step, a time", positive},
+    {"tolerated_growth_per_step", number, growth, "", "growth per step, max abs(lambda) - 1, that is acceptable", positive},
+    {"steps", number, growth, "", "instead of it: number of steps in which a factor e is acceptable", at_least_one},
 
     {"patch", integers, search, "", "periodic cells along each primitive vector; default 16 each", at_least_one},
     {"plate", integers, search, "", "particles of a free rectangular plate, instead of patch", {.low = 2.0}},

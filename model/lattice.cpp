@@ -30,6 +30,9 @@ Tensor<2> unit_primitive_vectors(LatticeKind kind) {
   return a;
 }
 
+/// Sites that a search for neighbours may look at; more than a million neighbours are a mistake.
+constexpr double largest_search = 4e6;
+
 /// Calls visit(n) for every index with |n_i| ≤ reach_i.
 template <int Dim, class Visit>
 void for_each_index(const LatticeIndex<Dim>& reach, const Visit& visit) {
@@ -59,15 +62,18 @@ Lattice<Dim>::Lattice(LatticeKind kind, double spacing) : kind_(kind), spacing_(
   primitive_ = spacing * unit_primitive_vectors(kind);
   reciprocal_ = 2.0 * std::numbers::pi * primitive_.inverse().transpose();
   cell_volume_ = std::abs(primitive_.determinant());
+  if (!std::isnormal(cell_volume_))
+    throw InvalidInput(fmt::format("spacing: {} makes a cell whose volume leaves the range of a double", spacing));
 }
 
 template <int Dim>
 std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattice, double support, NeighbourRule rule) {
   // |n_i| = |b_i · x| / 2π ≤ |b_i| support / 2π.
-  LatticeIndex<Dim> reach;
-  for (int i = 0; i < Dim; ++i)
-    reach[i] =
-        static_cast<int>(std::floor(lattice.reciprocal_vectors().col(i).norm() * support / (2.0 * std::numbers::pi)));
+  const Vector<Dim> bounds = lattice.reciprocal_vectors().colwise().norm() * support / (2.0 * std::numbers::pi);
+  if (!((2.0 * bounds.array() + 1.0).prod() <= largest_search))
+    throw InvalidInput(fmt::format("smoothing_length: the support {:g} is {:.3g} spacings, too many neighbours", support,
+                                   support / lattice.spacing()));
+  const LatticeIndex<Dim> reach = bounds.array().floor().template cast<int>();
   std::vector<LatticeNeighbour<Dim>> neighbours;
   for_each_index<Dim>(reach, [&](const LatticeIndex<Dim>& n) {
     if (n.isZero()) return;

@@ -67,7 +67,7 @@ struct LatticeNeighbour {
 inline constexpr double tie_margin = 1e-12;
 
 /// The neighbours of a lattice site, itself excluded, ordered by distance, then by index. Both n and −n are present.
-/// Throws InvalidInput naming `smoothing_length` if there is none.
+/// Throws InvalidInput naming `smoothing_length` if there is none, or if there are millions.
 template <int Dim>
 std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattice, double support, NeighbourRule rule);
 

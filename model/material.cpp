@@ -19,7 +19,10 @@ Material::Material(double density, double shear_modulus, double poisson_ratio, d
     : density_(density),
       shear_modulus_(shear_modulus),
       poisson_ratio_(poisson_ratio),
-      one_minus_two_nu_(one_minus_two_nu) {}
+      one_minus_two_nu_(one_minus_two_nu) {
+  if (!std::isnormal(shear_modulus / density))
+    throw InvalidInput(fmt::format("density: {} with this modulus makes a wave speed that leaves the range of a double", density));
+}
 
 Material Material::from_young_modulus(double density, double young_modulus, double poisson_ratio) {
   require_positive("density", density);

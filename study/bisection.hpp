@@ -29,6 +29,12 @@ struct Bisection {
   double smallest_detectable;  ///< growth per step that the horizon can show
 };
 
+/// How far a search is that closes [low, high] to a relative width, in [0, 1]; 0 while it has only one end.
+double closed_fraction(double low, double high, double tolerance);
+
+/// Steps in which a growth per step makes five e-foldings.
+long horizon_for_growth(double growth_per_step);
+
 /// Steps after which growth at a quarter of the tolerance above the limit shows: two eigenvalues that meet at −1 leave
 /// the circle as |λ| = 1 + √(8δ) at Δt = (1 + δ) Δt_c, and five e-foldings of δ = tolerance/4 are asked for.
 long default_horizon(double tolerance);
@@ -36,7 +42,8 @@ long default_horizon(double tolerance);
 /// The critical step by running. Scans upwards from `start` in steps of 20 % to the first exit (the stable set need not
 /// be an interval), then closes the bracket around the root of the growth, fitted to the growing steps nearest to it,
 /// halving where that does not help. Both ends of the final bracket were run. Unless a horizon is given it becomes as long
-/// as the growth at a quarter of the tolerance above the limit needs, up to 256 times the default. Tested in tests/study/test_bisection.cpp.
+/// as the growth at a quarter of the tolerance above the limit needs, up to 256 times the default. A step that did not grow
+/// is no lower end if by the fitted law it may have grown too slowly to be seen: then the bracket stays wider. Tested in tests/study/test_bisection.cpp.
 Bisection bisect(const GrowthProbe& probe, const BisectionOptions& options);
 
 }  // namespace sphstab::study

@@ -21,6 +21,8 @@ constexpr double seed_strain = 1e-10;
 /// of the growth is of that order.
 constexpr double linear_e_foldings = 40.0;
 constexpr double nonlinear_e_foldings = 12.0;
+/// A displacement s of which SPH sees less strain than this times s/h consists of zero-energy modes.
+constexpr double smallest_strain = 1e-12;
 /// Noise beside the fastest mode of the run before.
 constexpr double noise_beside_mode = 0.1;
 /// Runs are judged for the first time at this part of the horizon, and again whenever they are twice as long; those that
@@ -70,6 +72,10 @@ GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, co
                                                                                      : nonlinear_e_foldings),
       seed_(body.size()) {
   seed_.displacement = displacement;
+  double square = 0.0;
+  for (const auto& s : displacement) square += s.squaredNorm() / static_cast<double>(body.size());
+  if (!(amplitude(seed_) > smallest_strain * std::sqrt(square) / problem.kernel.smoothing_length()))
+    throw InvalidInput("patch: no perturbation of it has a strain energy (zero-energy modes only); take a larger one");
   scale_to_seed(seed_);
 }
 

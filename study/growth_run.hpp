@@ -21,7 +21,7 @@ class GrowthRun {
   /// Perturbs with random displacements of every particle; the same `noise_seed` gives the same run on every machine.
   GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, unsigned noise_seed);
 
-  /// Perturbs with this displacement only.
+  /// Perturbs with this displacement only. Both throw InvalidInput (`patch`) for a perturbation without strain energy.
   GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const solver::Field<Dim>& displacement);
 
   /// Runs `horizon` steps, up to four times as many while the trend is undecided, fewer once the growth is plain. Its

@@ -245,5 +245,7 @@ TEST_CASE("a ring of near-maxima gives the right value and an honest bracket", "
     CHECK(found.lower <= best * (1.0 + ray_spacing_error));
     CHECK(found.upper >= best);
     CHECK(found.upper < best * (1.0 + 1e-4));
+    // On the flattest ring the budget ends first: the bracket must then say so instead of claiming rounding.
+    if (ring.h == 2.0 && ring.cutoff == 7.0) CHECK(found.upper > best * (1.0 + 1e-9));
   }
 }

@@ -172,6 +172,19 @@ TEST_CASE("a report is not written where it cannot be or where it would replace 
   CHECK(folder.names().size() == 4);
 }
 
+TEST_CASE("what leaves the range of a double, or has nothing to run, is refused in one line", "[fast]") {
+  CHECK_THAT(complaint_about(on_case("dt", {"--spacing", "1e-200"})), StartsWith("spacing: 1e-200 makes a cell"));
+  CHECK_THAT(complaint_about(on_case("dt", {"--spacing", "1e-120"})), StartsWith("smoothing_length: "));
+  CHECK_THAT(complaint_about(on_case("dt", {"--h-over-spacing", "1e10"})), EndsWith("too many neighbours"));
+  CHECK_THAT(complaint_about(on_case("dt", {"--density", "1e-300"})), StartsWith("spacing, density and moduli: "));
+  CHECK_THAT(complaint_about(on_case("dt", {"--time-step", "1e160"})), StartsWith("time_step: 1e+160 is so long"));
+  CHECK_THAT(complaint_about(on_case("matrix", {"--wave-vector", "1,1", "--time-step", "1e160"})),
+             StartsWith("time_step: 1e+160 is so long"));
+  CHECK_THAT(complaint_about(on_case("bisect", {"--tolerance", "1e-15"})), StartsWith("tolerance: 1e-15 is not at least"));
+  for (const char* patch : {"1,1", "2,2"})
+    CHECK_THAT(complaint_about(on_case("bisect", {"--patch", patch})), StartsWith("patch: no perturbation of it"));
+}
+
 TEST_CASE("a result that cannot be written is no success", "[fast]") {
   // The device /dev/full takes no byte.
   const std::string program = "'" SPHSTAB_PROGRAM "' ";

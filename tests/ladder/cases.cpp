@@ -45,6 +45,11 @@ std::vector<NamedProblem> every_variant() {
         p.displacement_gradient = base_gradient();
         p.scheme.momentum_density = MomentumDensity::equation_of_state;
       });
+    // Where compression softens the longitudinal branch below the transverse one, but not yet to an instability.
+    add("strong compression", [](auto& p) {
+      p.displacement_gradient = -0.3 * Tensor<2>::Identity();
+      p.scheme.momentum_density = MomentumDensity::equation_of_state;
+    });
     add("everything at once", [](auto& p) {
       p.displacement_gradient = base_gradient();
       p.scheme.momentum_density = MomentumDensity::equation_of_state;

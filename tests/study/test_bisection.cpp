@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
 using namespace sphstab;
@@ -72,6 +74,48 @@ TEST_CASE("a law that is no square root is bracketed all the same", "[fast]") {
   CHECK(found.high - found.low <= 1e-3 * found.high);
   CHECK(found.low <= 1.0 + 1e-6);
   CHECK(found.high >= 1.0);
+}
+
+TEST_CASE("whatever the law of growth and the horizon, the bracket holds the root, or there is none", "[fast]") {
+  struct Law {
+    const char* name;
+    double (*growth)(double time_step);
+  };
+  const Law laws[] = {{"linear, slow", [](double t) { return 0.1 * (t - 1.0); }},
+                      {"linear, fast", [](double t) { return 10.0 * (t - 1.0); }},
+                      {"quadratic", [](double t) { return t < 1.0 ? 0.0 : (t - 1.0) * (t - 1.0); }},
+                      {"square root", [](double t) { return t < 1.0 ? 0.0 : 2.0 * std::acosh(t); }},
+                      {"foot", [](double t) { return t < 1.0 ? 0.0 : t < 2.0 ? 0.002 : 1.0; }}};
+  for (const auto& [name, growth] : laws)
+    for (const double width : {1e-3, 1e-6})
+      for (const std::optional<long> horizon : {std::optional<long>(), std::optional<long>(300), std::optional<long>(3000)}) {
+        INFO(name << ", tolerance " << width << ", horizon " << horizon.value_or(0));
+        const auto found = study::bisect(growth_law(growth), {.start = 0.2, .tolerance = width, .horizon = horizon});
+        if (!found.critical_time_step) continue;
+        CHECK(found.low <= *found.critical_time_step);
+        CHECK(*found.critical_time_step <= found.high);
+        // No run can tell a step at which growth is below what it can see; beyond that the bracket must hold the root.
+        CHECK(growth(found.low) <= found.smallest_detectable);
+        CHECK(growth(found.high) > 0.0);
+      }
+}
+
+TEST_CASE("a state that grows at every step has no critical step, however slowly it grows", "[fast]") {
+  for (const double rate : {1e-3, 0.1, 3.0}) {
+    INFO("rate " << rate);
+    const study::GrowthProbe probe = [rate](double time_step, long horizon) {
+      const double smallest = 3.0 / static_cast<double>(horizon), growth = rate * time_step;
+      return GrowthFit{growth < smallest ? Trend::bounded : Trend::growing, growth, smallest, 0.0, horizon};
+    };
+    CHECK_FALSE(study::bisect(probe, {.start = 1.0, .tolerance = tolerance}).critical_time_step);
+  }
+}
+
+TEST_CASE("progress of a search is a fraction, also before it has two ends", "[fast]") {
+  CHECK(study::closed_fraction(0.0, 1.0, 1e-6) == 0.0);
+  CHECK(study::closed_fraction(1.0, std::numeric_limits<double>::infinity(), 1e-6) == 0.0);
+  CHECK(study::closed_fraction(1.0 - 1e-3, 1.0, 1e-6) == Approx(0.5));
+  CHECK(study::closed_fraction(1.0, 1.0, 1e-6) == 1.0);
 }
 
 TEST_CASE("growth that the short scan overlooks is found by the full horizon", "[fast]") {
