@@ -9,7 +9,8 @@ std::string row(std::string_view name, std::string_view content) { return fmt::f
 
 std::string numbers(const study::Json& list, int digits) {
   std::string text;
-  for (const auto& number : list) text += fmt::format("{}{:.{}g}", text.empty() ? "" : ", ", number.get<double>(), digits);
+  for (const auto& number : list)
+    text += fmt::format("{}{:.{}g}", text.empty() ? "" : ", ", number.get<double>(), digits);
   return text;
 }
 

@@ -48,7 +48,8 @@ void for_each_index(const LatticeIndex<Dim>& reach, const Visit& visit) {
 
 template <int Dim>
 bool before(const LatticeNeighbour<Dim>& left, const LatticeNeighbour<Dim>& right) {
-  if (std::abs(left.distance - right.distance) > shell_tolerance * right.distance) return left.distance < right.distance;
+  if (std::abs(left.distance - right.distance) > shell_tolerance * right.distance)
+    return left.distance < right.distance;
   return std::lexicographical_compare(left.index.data(), left.index.data() + Dim, right.index.data(),
                                       right.index.data() + Dim);
 }
@@ -57,8 +58,7 @@ bool before(const LatticeNeighbour<Dim>& left, const LatticeNeighbour<Dim>& righ
 
 template <int Dim>
 Lattice<Dim>::Lattice(LatticeKind kind, double spacing) : kind_(kind), spacing_(spacing) {
-  if (!(spacing > 0.0) || !std::isfinite(spacing))
-    throw InvalidInput(fmt::format("spacing: {} is not a positive finite number", spacing));
+  require_positive("spacing", spacing);
   primitive_ = spacing * unit_primitive_vectors(kind);
   reciprocal_ = 2.0 * std::numbers::pi * primitive_.inverse().transpose();
   cell_volume_ = std::abs(primitive_.determinant());
@@ -71,8 +71,8 @@ std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattic
   // |n_i| = |b_i · x| / 2π ≤ |b_i| support / 2π.
   const Vector<Dim> bounds = lattice.reciprocal_vectors().colwise().norm() * support / (2.0 * std::numbers::pi);
   if (!((2.0 * bounds.array() + 1.0).prod() <= largest_search))
-    throw InvalidInput(fmt::format("smoothing_length: the support {:g} is {:.3g} spacings, too many neighbours", support,
-                                   support / lattice.spacing()));
+    throw InvalidInput(fmt::format("smoothing_length: the support {:g} is {:.3g} spacings, too many neighbours",
+                                   support, support / lattice.spacing()));
   const LatticeIndex<Dim> reach = bounds.array().floor().template cast<int>();
   std::vector<LatticeNeighbour<Dim>> neighbours;
   for_each_index<Dim>(reach, [&](const LatticeIndex<Dim>& n) {

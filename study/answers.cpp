@@ -69,23 +69,25 @@ Json to_json(const analysis::CriticalMode<Dim>& mode) {
 /// The verdict with what belongs to it: step and bracket, or growth rate, and the critical mode.
 template <int Dim>
 Json to_json(const analysis::StepLimit<Dim>& limit) {
-  return std::visit(Overloaded{[](const analysis::ConditionallyStable<Dim>& stable) -> Json {
-                                 return {{"critical_time_step", stable.critical_time_step},
-                                         {"bracket", {stable.bracket.low, stable.bracket.high}},
-                                         {"verdict", "conditionally-stable"},
-                                         {"critical_mode", to_json<Dim>(stable.mode)}};
-                               },
-                               [](const analysis::UnconditionallyStable&) -> Json {
-                                 return {{"critical_time_step", nullptr}, {"bracket", nullptr}, {"verdict", "unconditionally-stable"}};
-                               },
-                               [](const analysis::NeverStable<Dim>& unstable) -> Json {
-                                 return {{"critical_time_step", nullptr},
-                                         {"bracket", nullptr},
-                                         {"verdict", "never-stable"},
-                                         {"growth_rate", unstable.growth_rate},
-                                         {"critical_mode", to_json<Dim>(unstable.mode)}};
-                               }},
-                    limit);
+  return std::visit(
+      Overloaded{
+          [](const analysis::ConditionallyStable<Dim>& stable) -> Json {
+            return {{"critical_time_step", stable.critical_time_step},
+                    {"bracket", {stable.bracket.low, stable.bracket.high}},
+                    {"verdict", "conditionally-stable"},
+                    {"critical_mode", to_json<Dim>(stable.mode)}};
+          },
+          [](const analysis::UnconditionallyStable&) -> Json {
+            return {{"critical_time_step", nullptr}, {"bracket", nullptr}, {"verdict", "unconditionally-stable"}};
+          },
+          [](const analysis::NeverStable<Dim>& unstable) -> Json {
+            return {{"critical_time_step", nullptr},
+                    {"bracket", nullptr},
+                    {"verdict", "never-stable"},
+                    {"growth_rate", unstable.growth_rate},
+                    {"critical_mode", to_json<Dim>(unstable.mode)}};
+          }},
+      limit);
 }
 
 /// Extreme units can under- or overflow a double on the way; an answer that is none must not look like one.
@@ -209,25 +211,23 @@ Json bisection_answer(const Case& input, const Progress& progress) {
     throw InvalidInput(fmt::format("tolerance: {:g} is not at least {:g}", options.tolerance, least_tolerance));
   if (const auto horizon = input.number("horizon")) options.horizon = static_cast<long>(*horizon);
   if (progress)
-    options.progress = [&](double low, double high) {
-      progress(closed_fraction(low, high, options.tolerance));
-    };
+    options.progress = [&](double low, double high) { progress(closed_fraction(low, high, options.tolerance)); };
   const auto command = input.word("command");
   const auto found = compare_step(problem, choice, options, command ? foreign_solver(*command) : nullptr);
   const auto counts = std::vector<int>(choice.counts.data(), choice.counts.data() + Dim);
   Json answer{{choice.boundary == Boundary::free ? "plate" : "patch", counts},
-          {"critical_time_step", number_or_null(found.run.critical_time_step)},
-          {"bracket", {found.run.low, std::isfinite(found.run.high) ? Json(found.run.high) : Json()}},
-          {"theory", number_or_null(found.theory.critical_time_step)},
-          {"relative_difference", number_or_null(found.relative_difference())},
-          {"tolerance", options.tolerance},
-          {"agrees", found.agrees(options.tolerance)},
-          {"bulk_theory", number_or_null(found.bulk_theory)},
-          {"patch_deficit", number_or_null(found.patch_deficit())},
-          {"horizon", found.run.horizon},
-          {"runs", found.run.runs},
-          {"steps", found.run.steps},
-          {"smallest_detectable_growth", found.run.smallest_detectable}};
+              {"critical_time_step", number_or_null(found.run.critical_time_step)},
+              {"bracket", {found.run.low, std::isfinite(found.run.high) ? Json(found.run.high) : Json()}},
+              {"theory", number_or_null(found.theory.critical_time_step)},
+              {"relative_difference", number_or_null(found.relative_difference())},
+              {"tolerance", options.tolerance},
+              {"agrees", found.agrees(options.tolerance)},
+              {"bulk_theory", number_or_null(found.bulk_theory)},
+              {"patch_deficit", number_or_null(found.patch_deficit())},
+              {"horizon", found.run.horizon},
+              {"runs", found.run.runs},
+              {"steps", found.run.steps},
+              {"smallest_detectable_growth", found.run.smallest_detectable}};
   if (found.theory.growth_rate) answer["theory_growth_rate"] = *found.theory.growth_rate;
   return answer;
 }

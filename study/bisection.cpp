@@ -21,7 +21,8 @@ constexpr long scan_horizon = 200;
 constexpr double approach = 0.02;
 /// Growths closer than this relative difference tell nothing of the law.
 constexpr double smallest_separation = 1e-2;
-/// The linear term of the law matters from this part of the quadratic one on; below it is what errors of growth make it.
+/// The linear term of the law matters from this part of the quadratic one on; below it is what errors of growth make
+/// it.
 constexpr double smallest_linear_part = 0.2;
 /// Faster growth is measured over too few steps for that.
 constexpr double largest_trusted_x = 0.5;
@@ -40,8 +41,8 @@ struct GrowingStep {
 };
 
 /// Δt(x) = limit + linear x + quadratic x² through the growing steps nearest to the limit. Where two eigenvalues λ, 1/λ
-/// meet on the unit circle, x² is analytic in Δt and the linear term vanishes; where one crosses the circle alone (damping,
-/// viscosity), x itself is. The fit holds for both and for all between.
+/// meet on the unit circle, x² is analytic in Δt and the linear term vanishes; where one crosses the circle alone
+/// (damping, viscosity), x itself is. The fit holds for both and for all between.
 struct GrowthLaw {
   double limit, linear, quadratic;
 
@@ -81,8 +82,14 @@ class Search {
   Bisection run() {
     scan(std::min(scan_horizon, horizon_), options_.start);
     if (low_ > 0.0 && std::isfinite(high_)) refine();
-    const auto lowest = std::find_if(bounded_.begin(), bounded_.end(), [&](const auto& b) { return b.time_step == low_; });
-    return {critical_time_step(), low_, high_, horizon_, runs_, steps_,
+    const auto lowest =
+        std::find_if(bounded_.begin(), bounded_.end(), [&](const auto& b) { return b.time_step == low_; });
+    return {critical_time_step(),
+            low_,
+            high_,
+            horizon_,
+            runs_,
+            steps_,
             lowest == bounded_.end() ? 0.0 : lowest->smallest_detectable};
   }
 
@@ -109,7 +116,8 @@ class Search {
     const auto fitted = law();
     low_ = 0.0;
     for (const BoundedStep& step : bounded_) {
-      const bool may_grow = fitted && fitted->limit < step.time_step && fitted->x(step.time_step) < step.smallest_detectable;
+      const bool may_grow =
+          fitted && fitted->limit < step.time_step && fitted->x(step.time_step) < step.smallest_detectable;
       if (step.time_step < high_ && !may_grow) low_ = std::max(low_, step.time_step);
     }
   }
@@ -125,10 +133,12 @@ class Search {
     }
   }
 
-  /// The law of growth near the limit, if the growing steps give one: the square-root law unless a third step shows that
-  /// the linear term matters.
+  /// The law of growth near the limit, if the growing steps give one: the square-root law unless a third step shows
+  /// that the linear term matters.
   std::optional<GrowthLaw> law() const {
-    const auto distinct = [this](std::size_t i) { return growing_[i].x > (1.0 + smallest_separation) * growing_[i - 1].x; };
+    const auto distinct = [this](std::size_t i) {
+      return growing_[i].x > (1.0 + smallest_separation) * growing_[i - 1].x;
+    };
     if (growing_.size() < 2 || !distinct(1)) return std::nullopt;
     if (growing_.size() > 2 && distinct(2) && growing_[2].x < largest_trusted_x) {
       const auto law = interpolated_law(growing_[0], growing_[1], growing_[2]);
@@ -187,7 +197,8 @@ class Search {
 
   bool ran_long(double time_step) const {
     return std::any_of(bounded_.begin(), bounded_.end(), [&](const BoundedStep& step) {
-      return step.time_step == time_step && (step.horizon >= horizon_ || step.horizon >= default_horizon(options_.tolerance));
+      return step.time_step == time_step &&
+             (step.horizon >= horizon_ || step.horizon >= default_horizon(options_.tolerance));
     });
   }
 

@@ -38,7 +38,8 @@ Output output_of(const std::string& command) {
   if (pipe == nullptr) throw InvalidInput(fmt::format("command: '{}' cannot be started", command));
   Output output{};
   std::array<char, 4096> buffer;
-  for (std::size_t read; (read = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) output.text.append(buffer.data(), read);
+  for (std::size_t read; (read = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    output.text.append(buffer.data(), read);
   output.status = pclose(pipe);
   return output;
 }

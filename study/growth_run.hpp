@@ -12,9 +12,9 @@ namespace sphstab::study {
 
 /// Runs one body at one time step after another and measures how the strain energy of a small perturbation grows.
 ///
-/// A run starts from noise in the displacements, or from a given displacement, at rest (so that zero-energy modes do not
-/// even drift). After a growing run the fastest mode is known to the solver: the next run starts from it with a tenth of
-/// noise, which shows growth early without taking anything from the theory.
+/// A run starts from noise in the displacements, or from a given displacement, at rest (so that zero-energy modes do
+/// not even drift). After a growing run the fastest mode is known to the solver: the next run starts from it with a
+/// tenth of noise, which shows growth early without taking anything from the theory.
 template <int Dim>
 class GrowthRun {
  public:

@@ -54,9 +54,9 @@ double scan_start(const Problem<Dim>& problem) {
 Bisection run_once(const GrowthProbe& run, double time_step, double growth_rate) {
   const auto fit = run(time_step, 3 * horizon_for_growth(growth_rate * time_step));
   const bool grows = fit.trend == solver::Trend::growing;
-  return {std::nullopt, grows ? 0.0 : time_step,  grows ? time_step : std::numeric_limits<double>::infinity(),
-          fit.steps,    1,                        fit.steps,
-          fit.smallest_detectable};
+  return {
+      std::nullopt, grows ? 0.0 : time_step, grows ? time_step : std::numeric_limits<double>::infinity(), fit.steps, 1,
+      fit.steps,    fit.smallest_detectable};
 }
 
 }  // namespace
@@ -81,7 +81,8 @@ TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& cho
   if (choice.boundary == Boundary::free)
     return {.critical_time_step = analysis::dense_body_limit(problem, make_body(problem, choice)).critical_time_step};
   const auto limit = analysis::patch_limit(problem, choice.counts);
-  if (const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit)) return {.growth_rate = unstable->growth_rate};
+  if (const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit))
+    return {.growth_rate = unstable->growth_rate};
   return {.critical_time_step = step_of<Dim>(limit)};
 }
 
@@ -101,14 +102,16 @@ solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const
   }
   const auto limit = analysis::patch_limit(problem, choice.counts);
   const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit);
-  if (stable == nullptr) throw InvalidInput("seed: there is no critical mode to start from; use noise");
-  const Vector<Dim> k = stable->mode.wave_vector;
+  const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit);
+  if (stable == nullptr && unstable == nullptr)
+    throw InvalidInput("seed: there is no critical mode to start from; use noise");
+  const Vector<Dim> k = stable ? stable->mode.wave_vector : unstable->mode.wave_vector;
   const Eigen::EigenSolver<Tensor<Dim>> modes(analysis::dynamical_matrix(problem, k));
-  int fastest = 0;
-  modes.eigenvalues().real().maxCoeff(&fastest);
+  int critical = 0;
+  ((stable ? 1.0 : -1.0) * modes.eigenvalues().real()).maxCoeff(&critical);
   // An eighth of a wave off the origin: at a zone boundary a sine would vanish on every particle.
   for (int a = 0; a < body.size(); ++a)
-    displacement[a] = modes.eigenvectors().col(fastest).real() * std::cos(k.dot(body.position[a]) + std::atan(1.0));
+    displacement[a] = modes.eigenvectors().col(critical).real() * std::cos(k.dot(body.position[a]) + std::atan(1.0));
   return displacement;
 }
 
@@ -127,8 +130,7 @@ StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& 
     return GrowthRun<Dim>(problem, body, options.noise_seed);
   };
   const GrowthProbe run = probe ? probe : our_solver();
-  const Bisection found =
-      theory.growth_rate ? run_once(run, search.start, *theory.growth_rate) : bisect(run, search);
+  const Bisection found = theory.growth_rate ? run_once(run, search.start, *theory.growth_rate) : bisect(run, search);
   return {found, theory, bulk_step(problem)};
 }
 

@@ -54,8 +54,8 @@ TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& cho
 template <int Dim>
 std::optional<double> bulk_step(const Problem<Dim>& problem);
 
-/// The displacement of the theory's critical mode on the body of that choice, up to a factor. Throws InvalidInput (`seed`)
-/// where no mode is critical.
+/// The displacement of the theory's critical mode on the body of that choice, up to a factor. Throws InvalidInput
+/// (`seed`) where no mode is critical.
 template <int Dim>
 solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice,
                                               const Body<Dim>& body);

@@ -216,8 +216,7 @@ TEST_CASE("a ring of near-maxima gives the right value and an honest bracket", "
     double cutoff;
   };
   for (const auto& ring : {Ring{KernelFamily::gaussian, 2.0, 7.0}, Ring{KernelFamily::gaussian, 1.6, 7.0},
-                           Ring{KernelFamily::wendland_c6, 4.0, 3.0},
-                           Ring{KernelFamily::sinc_5, 2.0, 3.0}}) {
+                           Ring{KernelFamily::wendland_c6, 4.0, 3.0}, Ring{KernelFamily::sinc_5, 2.0, 3.0}}) {
     INFO(name_of(ring.kernel));
     const GradientSymbol<2> symbol(problem_2d(LatticeKind::square, ring.kernel, ring.h, ring.cutoff));
     const auto found = zone_maximum<2>(symbol.series(), Tensor<2>::Identity());

@@ -180,7 +180,8 @@ TEST_CASE("what leaves the range of a double, or has nothing to run, is refused 
   CHECK_THAT(complaint_about(on_case("dt", {"--time-step", "1e160"})), StartsWith("time_step: 1e+160 is so long"));
   CHECK_THAT(complaint_about(on_case("matrix", {"--wave-vector", "1,1", "--time-step", "1e160"})),
              StartsWith("time_step: 1e+160 is so long"));
-  CHECK_THAT(complaint_about(on_case("bisect", {"--tolerance", "1e-15"})), StartsWith("tolerance: 1e-15 is not at least"));
+  CHECK_THAT(complaint_about(on_case("bisect", {"--tolerance", "1e-15"})),
+             StartsWith("tolerance: 1e-15 is not at least"));
   for (const char* patch : {"1,1", "2,2"})
     CHECK_THAT(complaint_about(on_case("bisect", {"--patch", patch})), StartsWith("patch: no perturbation of it"));
 }

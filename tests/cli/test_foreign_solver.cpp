@@ -70,7 +70,8 @@ TEST_CASE("exit status 1 says that a foreign solver does not keep to the theory"
 
 TEST_CASE("a foreign solver whose run explodes may stop early, print inf and fail", "[fast]") {
   // Grows at every step: no critical step, and the claim of theory does not hold.
-  const auto result = run(on_case("bisect", {"--patch", "4,4", "--format", "json", "--command", "echo 1; echo inf; exit 1"}));
+  const auto result =
+      run(on_case("bisect", {"--patch", "4,4", "--format", "json", "--command", "echo 1; echo inf; exit 1"}));
   CHECK(result.status == 1);
   CHECK(result.json()["critical_time_step"].is_null());
   CHECK(result.json()["bracket"][0] == 0.0);

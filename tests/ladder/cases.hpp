@@ -13,8 +13,8 @@ struct NamedProblem {
   Problem<2> problem;
 };
 
-/// Every kernel on every lattice, and on every lattice every term of the scheme switched on; moduli, density and spacing
-/// are no round numbers, so that no factor is 1 by accident.
+/// Every kernel on every lattice, and on every lattice every term of the scheme switched on; moduli, density and
+/// spacing are no round numbers, so that no factor is 1 by accident.
 std::vector<NamedProblem> every_variant();
 
 /// A problem in plane strain without any optional term.

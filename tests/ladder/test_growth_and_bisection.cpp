@@ -49,6 +49,27 @@ TEST_CASE("rung 5: above the limit a seeded mode grows by ln of the spectral rad
     }
 }
 
+TEST_CASE("rung 5: a base state that theory calls never stable grows at the rate of its amplification matrix",
+          "[ladder]") {
+  const LatticeIndex<2> cells(6, 6);
+  for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::hexagonal, LatticeKind::staggered}) {
+    auto problem = ladder::basic_problem(lattice, KernelFamily::cubic_spline, 1.27);
+    problem.displacement_gradient = -0.45 * Tensor<2>::Identity();
+    problem.scheme.momentum_density = MomentumDensity::equation_of_state;
+    INFO(name_of(lattice));
+    const auto limit = std::get<analysis::NeverStable<2>>(analysis::patch_limit(problem, cells));
+    const double time_step = 0.05 / limit.growth_rate;
+    const double expected =
+        std::log(analysis::mode_spectrum(problem, limit.mode.wave_vector, time_step).spectral_radius);
+    const auto patch = periodic_patch<2>(problem, cells);
+    const auto mode = study::critical_mode_displacement<2>(problem, {Boundary::periodic, cells}, patch);
+    const auto fit = study::GrowthRun<2>(problem, patch, mode)(time_step, 400);
+    CHECK(fit.trend == solver::Trend::growing);
+    CHECK(std::abs(fit.growth_per_step - expected) < growth_tolerance);
+    CHECK(study::compare_step<2>(problem, {Boundary::periodic, cells}, {}).agrees(bisection_tolerance));
+  }
+}
+
 TEST_CASE("rung 6: bisection finds the theory's limit for kernels, lattices, supports and integrators",
           "[ladder][theory-vs-bisection]") {
   for (const auto& [lattice, lattice_name] : Names<LatticeKind>::table)
@@ -99,8 +120,8 @@ TEST_CASE("rung 6: bisection on free plates finds the largest eigenvalue of the 
     for (const double h_over_spacing : {0.93, 1.31})
       for (const auto& [normalisation, normalisation_name] : Names<KernelNormalisation>::table)
         for (const Plane plane : {Plane::strain, Plane::stress}) {
-          INFO(name_of(kernel) << " h/spacing " << h_over_spacing << " normalisation " << normalisation_name << " plane "
-                               << name_of(plane));
+          INFO(name_of(kernel) << " h/spacing " << h_over_spacing << " normalisation " << normalisation_name
+                               << " plane " << name_of(plane));
           auto problem = ladder::basic_problem(LatticeKind::square, kernel, h_over_spacing);
           problem.scheme.kernel_normalisation = normalisation;
           problem.plane = plane;

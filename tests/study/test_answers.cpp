@@ -122,8 +122,7 @@ TEST_CASE("dt has every key of the interface that applies to its verdict", "[fas
     CHECK(keys_of(answer) == more);
     CHECK(answer["bulk_only"] == true);
   };
-  const std::set<std::string> conditional{"critical_mode", "courant_number", "equivalents",
-                                          "published_bound"};
+  const std::set<std::string> conditional{"critical_mode", "courant_number", "equivalents", "published_bound"};
   const Json plain = dt({});
   expect_keys(plain, conditional);
   CHECK(plain["verdict"] == "conditionally-stable");

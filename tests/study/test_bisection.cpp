@@ -50,7 +50,8 @@ TEST_CASE("the root of growth squared needs far fewer runs than halving", "[fast
   CHECK(found.runs <= 12);
 }
 
-TEST_CASE("an eigenvalue that crosses the circle alone is found too, with as long a horizon as its growth needs", "[fast]") {
+TEST_CASE("an eigenvalue that crosses the circle alone is found too, with as long a horizon as its growth needs",
+          "[fast]") {
   // e^g solves (e^g − 1)(e^g − 1 + a) = 8δ, as for leapfrog with damping: linear near the limit, a square root beyond.
   for (const double damping : {1e-3, 1e-2, 0.3}) {
     INFO("damping " << damping);
@@ -85,10 +86,13 @@ TEST_CASE("whatever the law of growth and the horizon, the bracket holds the roo
                       {"linear, fast", [](double t) { return 10.0 * (t - 1.0); }},
                       {"quadratic", [](double t) { return t < 1.0 ? 0.0 : (t - 1.0) * (t - 1.0); }},
                       {"square root", [](double t) { return t < 1.0 ? 0.0 : 2.0 * std::acosh(t); }},
-                      {"foot", [](double t) { return t < 1.0 ? 0.0 : t < 2.0 ? 0.002 : 1.0; }}};
+                      {"foot", [](double t) { return t < 1.0   ? 0.0
+                                                     : t < 2.0 ? 0.002
+                                                               : 1.0; }}};
   for (const auto& [name, growth] : laws)
     for (const double width : {1e-3, 1e-6})
-      for (const std::optional<long> horizon : {std::optional<long>(), std::optional<long>(300), std::optional<long>(3000)}) {
+      for (const std::optional<long> horizon :
+           {std::optional<long>(), std::optional<long>(300), std::optional<long>(3000)}) {
         INFO(name << ", tolerance " << width << ", horizon " << horizon.value_or(0));
         const auto found = study::bisect(growth_law(growth), {.start = 0.2, .tolerance = width, .horizon = horizon});
         if (!found.critical_time_step) continue;
@@ -127,7 +131,9 @@ TEST_CASE("growth that the short scan overlooks is found by the full horizon", "
 }
 
 TEST_CASE("the first exit is reported where a second stable window follows", "[fast]") {
-  const auto window = [](double time_step) { return time_step < 1.0 || (time_step > 2.0 && time_step < 3.0) ? 0.0 : 0.5; };
+  const auto window = [](double time_step) {
+    return time_step < 1.0 || (time_step > 2.0 && time_step < 3.0) ? 0.0 : 0.5;
+  };
   const auto found = study::bisect(growth_law(window), {.start = 0.2, .tolerance = 1e-4});
   REQUIRE(found.critical_time_step);
   CHECK(*found.critical_time_step == Approx(1.0).epsilon(1e-4));
