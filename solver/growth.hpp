@@ -21,12 +21,12 @@ struct GrowthFit {
   long steps;                  ///< of the run
 };
 
-/// A run counts as growing only if it grows by at least this many e-foldings in each of its last two thirds. A
-/// defective pair (a + bn) rises by no more than ln 2 in a third, so drift can never pass for growth.
+/// A run counts as growing only if it grows by at least this many e-foldings in its last third. A defective pair (a +
+/// bn) rises by no more than ln 2 in a third, so drift can never pass for growth.
 inline constexpr double smallest_e_foldings = 1.0;
 
-/// … and only if the two slopes agree to this fraction and the run ends as far above all of its first third: a beat
-/// (sin θn) has slopes that fall, or returns to a height where it has been.
+/// … and only if the slope of the second third agrees with that of the last to this fraction and the run ends as far
+/// above all of its first third: a beat (sin θn) has slopes that fall, or returns to a height where it has been.
 inline constexpr double slope_agreement = 0.2;
 
 /// Judges ln(amplitude), one value every `stride` steps, the first at step 0: least-squares slopes over the second and

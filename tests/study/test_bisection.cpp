@@ -104,6 +104,17 @@ TEST_CASE("whatever the law of growth and the horizon, the bracket holds the roo
       }
 }
 
+TEST_CASE("a horizon too short for the tolerance widens the bracket instead of losing the root", "[fast]") {
+  // Linear growth of 0.1 (Δt − 1): 3000 steps see 1e-3, which it has at 1.01 only.
+  const auto slow = [](double time_step) { return 0.1 * (time_step - 1.0); };
+  const auto found = study::bisect(growth_law(slow), {.start = 0.2, .tolerance = tolerance, .horizon = 3000});
+  REQUIRE(found.critical_time_step);
+  CHECK(found.low <= 1.0);
+  CHECK(found.high >= 1.0);
+  // x = 2 sinh(g/2) of the fit is g to third order, and g is below 0.02 where it is fitted.
+  CHECK(*found.critical_time_step == Approx(1.0).epsilon(1e-4));
+}
+
 TEST_CASE("a state that grows at every step has no critical step, however slowly it grows", "[fast]") {
   for (const double rate : {1e-3, 0.1, 3.0}) {
     INFO("rate " << rate);
