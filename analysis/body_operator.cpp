@@ -119,7 +119,7 @@ BodyLimit dense_body_limit(const Problem<Dim>& problem, const Body<Dim>& body) {
     return ModeStep(problem.integrator, problem.scheme.damping, largest * (1.0 + relative)).limit();
   };
   const auto critical = limit(0.0);
-  if (!critical) throw InvalidInput("patch: no particle of this body feels a force");
+  if (!critical) throw InvalidInput("smoothing_length: no particle of this body feels a force");
   BodyLimit result{*critical, {*limit(error), *limit(-error)}, std::sqrt(largest), {}};
   for (const double value : omega_squared) result.omega.push_back(std::sqrt(std::max(0.0, value)));
   return result;

@@ -44,6 +44,40 @@ ExtremeMode<Dim> mode_at_rest() {
   return {Vector<Dim>::Zero(), Branch::longitudinal, 0.0, 0.0, 0.0};
 }
 
+/// Every index from 0 to counts − 1 on each axis.
+template <int Dim>
+std::vector<LatticeIndex<Dim>> indices_below(std::string_view key, const LatticeIndex<Dim>& counts) {
+  if (counts.minCoeff() < 1)
+    throw InvalidInput(
+        fmt::format("{}: {} has a count below 1", key, fmt::join(counts.data(), counts.data() + Dim, ",")));
+  std::vector<LatticeIndex<Dim>> indices;
+  for (int flat = 0; flat < counts.prod(); ++flat) {
+    LatticeIndex<Dim> n;
+    for (int axis = 0, rest = flat; axis < Dim; rest /= counts[axis], ++axis) n[axis] = rest % counts[axis];
+    indices.push_back(n);
+  }
+  return indices;
+}
+
+/// Components within this of each other, relative to |b|, count as equal when equivalent wave vectors are ordered.
+constexpr double same_component = 1e-9;
+
+/// The representative of a class of equivalent wave vectors: the shortest, then the lexicographically largest.
+template <int Dim>
+Vector<Dim> in_first_zone(const Tensor<Dim>& reciprocal, const Vector<Dim>& wave_vector) {
+  const double tolerance = same_component * reciprocal.norm();
+  // Shifts by up to two reciprocal vectors reach the Wigner-Seitz cell from [−½, ½) b_i of any lattice kind.
+  const LatticeIndex<Dim> shifts = LatticeIndex<Dim>::Constant(5);
+  Vector<Dim> best = wave_vector;
+  for (const auto& n : indices_below<Dim>("", shifts)) {
+    const Vector<Dim> k = wave_vector + reciprocal * (n.template cast<double>().array() - 2.0).matrix();
+    double preference = best.norm() - k.norm();
+    for (int axis = 0; axis < Dim && std::abs(preference) <= tolerance; ++axis) preference = k[axis] - best[axis];
+    if (preference > tolerance) best = k;
+  }
+  return best;
+}
+
 template <int Dim>
 FrequencyRange<Dim> range_over_zone(const Problem<Dim>& problem) {
   const GradientSymbol<Dim> symbol(problem);
@@ -60,13 +94,14 @@ FrequencyRange<Dim> range_over_zone(const Problem<Dim>& problem) {
     if (found.value <= highest.omega_squared) return;
     highest.omega_squared = found.value;
     highest.branch = branch;
-    highest.wave_vector = symbol.wave_vector(found.phases);
+    highest.wave_vector = in_first_zone<Dim>(problem.lattice.reciprocal_vectors(), symbol.wave_vector(found.phases));
   };
   if (q.maxCoeff() >= form.shear) raise(Branch::longitudinal, Q);
   if (Dim > 1 && q.minCoeff() < form.shear) raise(Branch::transverse, form.shear * Tensor<Dim>::Identity());
   if (q.minCoeff() < 0.0)
     if (const auto found = zone_maximum<Dim>(symbol.series(), -Q); found.lower > 0.0)
-      range.lowest = {symbol.wave_vector(found.phases), Branch::longitudinal, -found.value, -found.upper, -found.lower};
+      range.lowest = {in_first_zone<Dim>(problem.lattice.reciprocal_vectors(), symbol.wave_vector(found.phases)),
+                      Branch::longitudinal, -found.value, -found.upper, -found.lower};
   return range;
 }
 
@@ -110,40 +145,6 @@ StepLimit<Dim> limit_of(const Problem<Dim>& problem, const FrequencyRange<Dim>& 
                         *step_of(problem, highest.lower).limit() * (1.0 + few_roundings)};
   return ConditionallyStable<Dim>{
       *limit, bracket, {highest.wave_vector, highest.branch, std::sqrt(highest.omega_squared)}};
-}
-
-/// Every index from 0 to counts − 1 on each axis.
-template <int Dim>
-std::vector<LatticeIndex<Dim>> indices_below(std::string_view key, const LatticeIndex<Dim>& counts) {
-  if (counts.minCoeff() < 1)
-    throw InvalidInput(
-        fmt::format("{}: {} has a count below 1", key, fmt::join(counts.data(), counts.data() + Dim, ",")));
-  std::vector<LatticeIndex<Dim>> indices;
-  for (int flat = 0; flat < counts.prod(); ++flat) {
-    LatticeIndex<Dim> n;
-    for (int axis = 0, rest = flat; axis < Dim; rest /= counts[axis], ++axis) n[axis] = rest % counts[axis];
-    indices.push_back(n);
-  }
-  return indices;
-}
-
-/// Components within this of each other, relative to |b|, count as equal when equivalent wave vectors are ordered.
-constexpr double same_component = 1e-9;
-
-/// The representative of a class of equivalent wave vectors: the shortest, then the lexicographically largest.
-template <int Dim>
-Vector<Dim> in_first_zone(const Tensor<Dim>& reciprocal, const Vector<Dim>& wave_vector) {
-  const double tolerance = same_component * reciprocal.norm();
-  // Shifts by up to two reciprocal vectors reach the Wigner-Seitz cell from [−½, ½) b_i of any lattice kind.
-  const LatticeIndex<Dim> shifts = LatticeIndex<Dim>::Constant(5);
-  Vector<Dim> best = wave_vector;
-  for (const auto& n : indices_below<Dim>("", shifts)) {
-    const Vector<Dim> k = wave_vector + reciprocal * (n.template cast<double>().array() - 2.0).matrix();
-    double preference = best.norm() - k.norm();
-    for (int axis = 0; axis < Dim && std::abs(preference) <= tolerance; ++axis) preference = k[axis] - best[axis];
-    if (preference > tolerance) best = k;
-  }
-  return best;
 }
 
 }  // namespace

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/gradient_symbol.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace sphstab::analysis {
 namespace {
+
+constexpr double few_roundings = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// One of each pair n, −n: the last component that is not zero is positive.
 template <int Dim>
@@ -25,14 +29,20 @@ double normalisation_sum(const Problem<Dim>& problem, const std::vector<LatticeN
 }
 
 template <int Dim>
-std::vector<SineTerm<Dim>> symbol_terms(const Problem<Dim>& problem) {
+SineSeries<Dim> symbol_series(const Problem<Dim>& problem) {
   const auto neighbours = lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule);
   const double factor = -2.0 * problem.lattice.cell_volume() / normalisation_sum(problem, neighbours);
   std::vector<SineTerm<Dim>> terms;
-  for (const auto& d : neighbours)
-    if (in_upper_half<Dim>(d.index))
-      terms.push_back({d.index, factor * problem.kernel.slope(d.distance) / d.distance * d.position});
-  return terms;
+  double coefficient_error = 0.0;
+  for (const auto& d : neighbours) {
+    if (!in_upper_half<Dim>(d.index)) continue;
+    const double slope = problem.kernel.slope(d.distance);
+    terms.push_back({d.index, factor * slope / d.distance * d.position});
+    // A handful of roundings of the product, and those of r/h, which matter where W' falls steeply to the support.
+    coefficient_error += few_roundings * std::abs(factor) *
+                         (std::abs(slope) + d.distance * std::abs(problem.kernel.curvature(d.distance)));
+  }
+  return SineSeries<Dim>(std::move(terms), coefficient_error);
 }
 
 }  // namespace
@@ -43,7 +53,7 @@ GradientSymbol<Dim>::GradientSymbol(const Problem<Dim>& problem)
       wave_vectors_of_phases_(problem.lattice.reciprocal_vectors() / (2.0 * std::numbers::pi)),
       consistency_(Tensor<Dim>::Zero()),
       weight_sum_(0.0),
-      series_(symbol_terms(problem)) {
+      series_(symbol_series(problem)) {
   for (const auto& term : series_.terms()) {
     consistency_ += problem.lattice.site(term.frequency) * term.coefficient.transpose();
     weight_sum_ += term.coefficient.norm();

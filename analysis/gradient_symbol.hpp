@@ -10,7 +10,7 @@ namespace sphstab::analysis {
 ///   Σ_b V (y_b − y_a) ∇_a W_ab = i D(k) y_a,   D(k) = −V Σ_d sin(k·d) ∇W(d) = −A(k)   (theory.md §1),
 /// the sum over the neighbours d = x_a − x_b. D → k (1 + O(quadrature error)) for long waves. With the kernel
 /// normalisation `sum` both sums of the scheme carry 1/N, N = V ΣW with W(0) included, and so does D.
-/// Tested in tests/analysis/test_gradient_symbol.cpp.
+/// Tested in tests/analysis/test_linearisation.cpp.
 template <int Dim>
 class GradientSymbol {
  public:

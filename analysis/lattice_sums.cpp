@@ -32,7 +32,7 @@ LatticeSums<Dim> lattice_sums(const Lattice<Dim>& lattice, const Kernel<Dim>& ke
     sums.A += V * std::sin(2.0 * half_angle) * dW * e;
     sums.B += weight * axial<Dim>(e, d2W, dW / r);
     sums.beta_sum += weight * W;
-    if (!(W_spacing > 0.0)) continue;
+    if (!(W_spacing > 0.0 && W > 0.0)) continue;
     const double phi = std::pow(W / W_spacing, n);
     sums.f += weight * axial<Dim>(e, phi * (d2W + n * dW * dW / W), phi * dW / r);
   }

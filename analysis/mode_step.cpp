@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/mode_step.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -76,6 +78,9 @@ ModeStep::ModeStep(Integrator integrator, const std::optional<Damping>& damping,
 ModeStep::Pair ModeStep::pair(double time_step) const {
   const double p = value(p_, time_step), tau = value(tau_, time_step);
   const double half = 0.5 * (p + tau);
+  if (!std::isfinite(half * half))
+    throw InvalidInput(
+        fmt::format("time_step: {} is so long that the eigenvalues leave the range of a double", time_step));
   return {1.0 - half, 1.0 - p, half * half - tau, tau};
 }
 

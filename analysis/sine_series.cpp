@@ -29,7 +29,7 @@ double largest_eigenvalue(const Tensor<Dim>& symmetric) {
 }  // namespace
 
 template <int Dim>
-SineSeries<Dim>::SineSeries(std::vector<SineTerm<Dim>> terms) : terms_(std::move(terms)) {
+SineSeries<Dim>::SineSeries(std::vector<SineTerm<Dim>> terms, double coefficient_error) : terms_(std::move(terms)) {
   reach_.setZero();
   double weights = 0.0;
   for (const auto& term : terms_) {
@@ -52,7 +52,7 @@ SineSeries<Dim>::SineSeries(std::vector<SineTerm<Dim>> terms) : terms_(std::move
   // Per term: reach products of rotations (2 roundings each) on each axis, Dim products of them, one with the weight;
   // then as many additions as terms. Unit roundoff is ε/2.
   const double roundings = 2.0 * reach_.sum() + 2.0 * Dim + 2.0 + static_cast<double>(terms_.size());
-  rounding_ = roundings * 0.5 * std::numeric_limits<double>::epsilon() * weights;
+  rounding_ = roundings * 0.5 * std::numeric_limits<double>::epsilon() * weights + coefficient_error;
 }
 
 /// Calls visit(term, cos n·θ, sin n·θ), the angles composed from powers of e^{iθ_axis}.

@@ -34,7 +34,8 @@ template <int Dim>
 class SineSeries {
  public:
   /// `terms` hold one of each pair n, −n.
-  explicit SineSeries(std::vector<SineTerm<Dim>> terms);
+  /// `coefficient_error` bounds the sum of the errors that the coefficients bring with them.
+  explicit SineSeries(std::vector<SineTerm<Dim>> terms, double coefficient_error = 0.0);
 
   const std::vector<SineTerm<Dim>>& terms() const { return terms_; }
   Vector<Dim> operator()(const Vector<Dim>& phases) const;

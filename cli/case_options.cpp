@@ -29,6 +29,7 @@ std::string_view group_title(KeyGroup group) {
     case KeyGroup::mode:
       return "Mode";
     case KeyGroup::time:
+    case KeyGroup::growth:
       return "Time step";
     case KeyGroup::search:
       return "Search";

@@ -11,7 +11,8 @@ std::string describe_limit(const Json& answer) {
   const std::string verdict = answer["verdict"];
   if (verdict == "unconditionally-stable") return "  every time step is stable: no mode has a restoring force\n";
   const Json& mode = answer["critical_mode"];
-  const std::string wave = fmt::format("k = ({}), {}", numbers(mode["wave_vector"], 6), mode["branch"].get<std::string>());
+  const std::string wave =
+      fmt::format("k = ({}), {}", numbers(mode["wave_vector"], 6), mode["branch"].get<std::string>());
   if (verdict == "never-stable")
     return row("verdict", "never stable: the base state grows at every time step") +
            row("growth rate", fmt::format("{:.8g} per time", answer["growth_rate"].get<double>())) +
@@ -24,18 +25,19 @@ std::string describe_limit(const Json& answer) {
 }
 
 std::string describe_bound(const Json& bound) {
-  return row("published bound", fmt::format("{:.8g} ({}): {}", bound["value"].get<double>(),
-                                            bound["source"].get<std::string>(),
-                                            bound["holds"].get<bool>() ? "safe here, and conservative" : "UNSAFE here"));
+  return row("published bound",
+             fmt::format("{:.8g} ({}): {}", bound["value"].get<double>(), bound["source"].get<std::string>(),
+                         bound["holds"].get<bool>() ? "safe here, and conservative" : "UNSAFE here"));
 }
 
 std::string describe_equivalents(const Json& equivalents) {
   std::string text = "\nThe limit as the factor of other codes' rules (time step = factor x unit):\n";
   for (const Json& rule : equivalents) {
     const Json& given = rule["default"];
-    const std::string verdict = given.is_null()                       ? "no default"
-                                : rule["default_is_safe"].get<bool>() ? fmt::format("default {} is safe in bulk", given.dump())
-                                                                      : fmt::format("default {} is UNSAFE", given.dump());
+    const std::string verdict = given.is_null() ? "no default"
+                                : rule["default_is_safe"].get<bool>()
+                                    ? fmt::format("default {} is safe in bulk", given.dump())
+                                    : fmt::format("default {} is UNSAFE", given.dump());
     text += fmt::format("  {:<32} {:<34} {:>8.4f}  {}\n", rule["rule"].get<std::string>(),
                         rule["formula"].get<std::string>(), rule["factor_at_limit"].get<double>(), verdict);
   }
@@ -44,10 +46,12 @@ std::string describe_equivalents(const Json& equivalents) {
 
 std::string describe_zero_energy(const Json& answer) {
   const Json& modes = answer["zero_energy_modes"];
-  std::string text = fmt::format("\nZero-energy modes (no time step removes them; they drift, they do not grow): {}{}\n",
-                                 modes.size(), answer["zero_energy_modes_complete"].get<bool>() ? "" : " or more");
+  std::string text =
+      fmt::format("\nZero-energy modes (no time step removes them; they drift, they do not grow): {}{}\n", modes.size(),
+                  answer["zero_energy_modes_complete"].get<bool>() ? "" : " or more");
   constexpr std::size_t shown = 8;
-  for (std::size_t i = 0; i < std::min(shown, modes.size()); ++i) text += fmt::format("  k = ({})\n", numbers(modes[i], 6));
+  for (std::size_t i = 0; i < std::min(shown, modes.size()); ++i)
+    text += fmt::format("  k = ({})\n", numbers(modes[i], 6));
   if (modes.size() > shown) text += fmt::format("  and {} more (--format json lists them)\n", modes.size() - shown);
   return text;
 }
@@ -55,10 +59,12 @@ std::string describe_zero_energy(const Json& answer) {
 std::string describe(const Json& answer) {
   std::string text = "Bulk value: critical time step of an infinite lattice\n" + describe_limit(answer);
   if (answer.contains("courant_number"))
-    text += row("Courant number", fmt::format("{:.8g} (time step x p-wave speed / spacing)", answer["courant_number"].get<double>()));
+    text += row("Courant number",
+                fmt::format("{:.8g} (time step x p-wave speed / spacing)", answer["courant_number"].get<double>()));
   if (answer.contains("published_bound")) text += describe_bound(answer["published_bound"]);
   if (answer.contains("mode_limit")) text += "\nThe mode given alone:\n" + describe_limit(answer["mode_limit"]);
-  if (answer.contains("box_limit")) text += "\nThe paper's modes of the box alone:\n" + describe_limit(answer["box_limit"]);
+  if (answer.contains("box_limit"))
+    text += "\nThe paper's modes of the box alone:\n" + describe_limit(answer["box_limit"]);
   if (answer.contains("spectral_radius_at_time_step"))
     text += row("spectral radius", fmt::format("{:.12g} at the time step given, over the whole zone",
                                                answer["spectral_radius_at_time_step"].get<double>()));
@@ -74,7 +80,8 @@ std::string describe(const Json& answer) {
 CaseCommand dt_command() {
   return {"dt",
           "the critical time step of a scheme on an infinite lattice",
-          {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time},
+          {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time,
+           KeyGroup::growth},
           study::time_step_answer,
           describe};
 }

@@ -23,15 +23,22 @@ Json list_kernels() {
   return rows;
 }
 
-Json list_lattices() {
-  Json rows = Json::array();
-  for (const auto& [kind, name] : Names<LatticeKind>::table) {
-    const Lattice<2> lattice(kind, 1.0);
-    Json row{{"name", name}, {"dimension", 2}};
+template <int Dim>
+void add_lattices(Json& rows) {
+  for (const LatticeKind kind : lattices_of(Dim)) {
+    const Lattice<Dim> lattice(kind, 1.0);
+    Json row{{"name", name_of(kind)}, {"dimension", Dim}};
     for (const auto& a : lattice.primitive_vectors().colwise())
       row["primitive_vectors"].push_back(std::vector<double>(a.begin(), a.end()));
     rows.push_back(std::move(row));
   }
+}
+
+Json list_lattices() {
+  Json rows = Json::array();
+  add_lattices<1>(rows);
+  add_lattices<2>(rows);
+  add_lattices<3>(rows);
   return rows;
 }
 

@@ -13,8 +13,8 @@ std::string complex_number(const Json& pair) {
 }
 
 std::string describe(const Json& answer) {
-  std::string text = fmt::format("Amplification matrix E at k = ({}), time step {:.12g}\n\n", numbers(answer["wave_vector"], 8),
-                                 answer["time_step"].get<double>());
+  std::string text = fmt::format("Amplification matrix E at k = ({}), time step {:.12g}\n\n",
+                                 numbers(answer["wave_vector"], 8), answer["time_step"].get<double>());
   const Json& state = answer["state"];
   text += fmt::format("  {:>6}", "");
   for (const Json& name : state) text += fmt::format(" {:>16}", name.get<std::string>());

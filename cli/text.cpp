@@ -9,12 +9,13 @@ std::string row(std::string_view name, std::string_view content) { return fmt::f
 
 std::string numbers(const study::Json& list, int digits) {
   std::string text;
-  for (const auto& number : list) text += fmt::format("{}{:.{}g}", text.empty() ? "" : ", ", number.get<double>(), digits);
+  for (const auto& number : list)
+    text += fmt::format("{}{:.{}g}", text.empty() ? "" : ", ", number.get<double>(), digits);
   return text;
 }
 
-std::string number_or(const study::Json& number, std::string_view otherwise) {
-  return number.is_null() ? std::string(otherwise) : fmt::format("{:.12g}", number.get<double>());
+std::string number_or(const study::Json& number, std::string_view otherwise, int digits) {
+  return number.is_null() ? std::string(otherwise) : fmt::format("{:.{}g}", number.get<double>(), digits);
 }
 
 }  // namespace sphstab::cli

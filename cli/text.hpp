@@ -14,7 +14,7 @@ std::string row(std::string_view name, std::string_view content);
 /// The numbers of a list with so many significant digits, separated by commas.
 std::string numbers(const study::Json& list, int digits);
 
-/// A number with 12 digits, or `otherwise` for null.
-std::string number_or(const study::Json& number, std::string_view otherwise);
+/// A number with so many digits, or `otherwise` for null.
+std::string number_or(const study::Json& number, std::string_view otherwise, int digits = 12);
 
 }  // namespace sphstab::cli

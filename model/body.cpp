@@ -52,8 +52,8 @@ Body<Dim> block_of_lattice(const Problem<Dim>& problem, const LatticeIndex<Dim>&
 template <int Dim>
 void require_counts(std::string_view key, const LatticeIndex<Dim>& counts, int smallest) {
   if (counts.minCoeff() < smallest)
-    throw InvalidInput(fmt::format("{}: {} has a count below {}", key,
-                                   fmt::join(counts.data(), counts.data() + Dim, ","), smallest));
+    throw InvalidInput(
+        fmt::format("{}: {} has a count below {}", key, fmt::join(counts.data(), counts.data() + Dim, ","), smallest));
 }
 
 }  // namespace
@@ -68,7 +68,8 @@ template <int Dim>
 Body<Dim> free_plate(const Problem<Dim>& problem, const LatticeIndex<Dim>& particles) {
   require_counts<Dim>("plate", particles, 2);
   if (problem.lattice.kind() != LatticeKind::square)
-    throw InvalidInput(fmt::format("plate: a free plate needs the lattice square, not {}", name_of(problem.lattice.kind())));
+    throw InvalidInput(
+        fmt::format("plate: a free plate needs the lattice square, not {}", name_of(problem.lattice.kind())));
   return block_of_lattice(problem, particles, Boundary::free);
 }
 

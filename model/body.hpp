@@ -11,8 +11,8 @@ namespace sphstab {
 template <int Dim>
 struct NeighbourPairs {
   std::vector<int> first;
-  std::vector<int> neighbour;            ///< b
-  std::vector<Vector<Dim>> separation;   ///< r_ab = r_a − r_b in the reference state, of this image of b
+  std::vector<int> neighbour;           ///< b
+  std::vector<Vector<Dim>> separation;  ///< r_ab = r_a − r_b in the reference state, of this image of b
 
   int particles() const { return static_cast<int>(first.size()) - 1; }
 };
@@ -30,8 +30,8 @@ struct Body {
 };
 
 /// n_1 × … × n_Dim cells of the lattice with periodic images. Every image within the support counts, so a patch may be
-/// smaller than the support. Particle order: first lattice direction fastest. Throws InvalidInput (`patch`) unless every
-/// count is at least 1.
+/// smaller than the support. Particle order: first lattice direction fastest. Throws InvalidInput (`patch`) unless
+/// every count is at least 1.
 template <int Dim>
 Body<Dim> periodic_patch(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
 

@@ -15,17 +15,14 @@ Enum enumerator(const Case& input, std::string_view key) {
   return from_name<Enum>(key, input.required_word(key));
 }
 
-InvalidInput missing(const Key& key) {
-  return InvalidInput(fmt::format("{}: missing ({})", key.name, key.help));
-}
+InvalidInput missing(const Key& key) { return InvalidInput(fmt::format("{}: missing ({})", key.name, key.help)); }
 
 void refuse_both(const Case& input, std::string_view one, std::string_view other) {
   if (input.has(one) && input.has(other)) throw InvalidInput(fmt::format("{}: cannot be given with {}", one, other));
 }
 
 void require_length(std::string_view key, std::size_t given, std::size_t needed) {
-  if (given != needed)
-    throw InvalidInput(fmt::format("{}: has {} components, but {} are needed", key, given, needed));
+  if (given != needed) throw InvalidInput(fmt::format("{}: has {} components, but {} are needed", key, given, needed));
 }
 
 Material make_material(const Case& input) {

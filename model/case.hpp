@@ -35,7 +35,8 @@ class Case {
   std::map<std::string, KeyValue, std::less<>> values_;
 };
 
-/// Kernel of the case; h from smoothing_length, or h_over_spacing, or 1.3 spacings. Throws InvalidInput if both are given.
+/// Kernel of the case; h from smoothing_length, or h_over_spacing, or 1.3 spacings. Throws InvalidInput if both are
+/// given.
 template <int Dim>
 Kernel<Dim> make_kernel(const Case& input);
 
@@ -48,12 +49,13 @@ NeighbourRule neighbour_rule(const Case& input);
 template <int Dim>
 Problem<Dim> make_problem(const Case& input);
 
-/// k from wave_vector, or from mode and box: k = (mπ/(M Δp), lπ/(L Δp)), Zhang Eq. 13. Throws InvalidInput if neither or
-/// both are there or a length is wrong.
+/// k from wave_vector, or from mode and box: k = (mπ/(M Δp), lπ/(L Δp)), Zhang Eq. 13. Throws InvalidInput if neither
+/// or both are there or a length is wrong.
 template <int Dim>
 Vector<Dim> make_wave_vector(const Case& input);
 
-/// Counts along each direction (patch, plate, box). Nothing if the key is absent; throws InvalidInput for a wrong length.
+/// Counts along each direction (patch, plate, box). Nothing if the key is absent; throws InvalidInput for a wrong
+/// length.
 template <int Dim>
 std::optional<LatticeIndex<Dim>> make_counts(const Case& input, std::string_view key);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string_view>
 
 namespace sphstab {
 
@@ -10,5 +11,8 @@ class InvalidInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throws InvalidInput naming the key unless the value is positive and finite.
+void require_positive(std::string_view key, double value);
 
 }  // namespace sphstab

@@ -12,7 +12,8 @@ constexpr std::array<TruncatedPower, 2> cubic{{{0.25, 2.0, 3}, {-1.0, 1.0, 3}}};
 constexpr std::array<TruncatedPower, 3> quartic{{{1.0, 2.5, 4}, {-5.0, 1.5, 4}, {10.0, 0.5, 4}}};
 constexpr std::array<TruncatedPower, 3> quintic{{{1.0, 3.0, 5}, {-6.0, 2.0, 5}, {15.0, 1.0, 5}}};
 
-/// (1 − q/2)ⁿ (1 + p₁q + p₂q² + p₃q³) rewritten in powers of 2 − q, so that it vanishes at the support without rounding.
+/// (1 − q/2)ⁿ (1 + p₁q + p₂q² + p₃q³) rewritten in powers of 2 − q, so that it vanishes at the support without
+/// rounding.
 template <std::size_t Terms>
 constexpr std::array<TruncatedPower, Terms> wendland(int n, const std::array<double, Terms>& p) {
   std::array<TruncatedPower, Terms> powers{};
@@ -32,7 +33,8 @@ constexpr std::array<TruncatedPower, Terms> wendland(int n, const std::array<dou
   return powers;
 }
 
-// One-dimensional family (first) and the family for two and three dimensions (second): Wendland 1995, Dehnen & Aly 2012.
+// One-dimensional family (first) and the family for two and three dimensions (second): Wendland 1995, Dehnen & Aly
+// 2012.
 constexpr auto c2_line = wendland<2>(3, {1.0, 1.5});
 constexpr auto c2_space = wendland<2>(4, {1.0, 2.0});
 constexpr auto c4_line = wendland<3>(5, {1.0, 2.5, 2.0});
@@ -86,11 +88,6 @@ double support_in_smoothing_lengths(KernelFamily family, double gaussian_cutoff)
   return 0.0;
 }
 
-void require_positive(const char* key, double value) {
-  if (!(value > 0.0) || !std::isfinite(value))
-    throw InvalidInput(fmt::format("{}: {} is not a positive finite number", key, value));
-}
-
 }  // namespace
 
 std::span<const TruncatedPower> truncated_powers(KernelFamily family, int dimension) {
@@ -130,6 +127,9 @@ Kernel<Dim>::Kernel(KernelFamily family, double smoothing_length, double gaussia
     normalisation_ = sinc_5_normalisation[Dim - 1] / h_to_d;
   else
     normalisation_ = 1.0 / (integral_of_shape(powers_, Dim) * h_to_d);
+  if (!std::isnormal(normalisation_ / (smoothing_length * smoothing_length)))
+    throw InvalidInput(
+        fmt::format("smoothing_length: {} makes a kernel that leaves the range of a double", smoothing_length));
 }
 
 template class Kernel<1>;

@@ -55,7 +55,8 @@ std::span<const TruncatedPower> truncated_powers(KernelFamily family, int dimens
 ///   Wendland  C2, C4, C6 with support 2h: (1−q/2)₊ⁿ p(q)  sinc-5   [sin(πq/2) / (πq/2)]⁵, q < 2 (Cabezón et al.)
 /// All are zero from the support on. Accuracy of value, slope and curvature: 1e-12 of W(0), W(0)/h and W(0)/h²
 /// (Wendland C6 near the origin; ten times better elsewhere).
-/// Templates on the scalar so that duals and multiprecision numbers pass through. Tested in tests/model/test_kernel.cpp.
+/// Templates on the scalar so that duals and multiprecision numbers pass through. Tested in
+/// tests/model/test_kernel.cpp.
 template <int Dim>
 class Kernel {
  public:
@@ -141,7 +142,8 @@ Scalar sinc_5(const Scalar& q) {
     const Scalar y = x * x;
     s = 1.0 - y / 6.0 * (1.0 - y / 20.0 * (1.0 - y / 42.0 * (1.0 - y / 72.0 * (1.0 - y / 110.0))));
     ds = -x / 3.0 * (1.0 - y / 10.0 * (1.0 - y / 28.0 * (1.0 - y / 54.0 * (1.0 - y / 88.0))));
-    d2s = -1.0 / 3.0 * (1.0 - y * 3.0 / 10.0 * (1.0 - y * 5.0 / 84.0 * (1.0 - y * 7.0 / 270.0 * (1.0 - y / 68.444444444444443))));
+    d2s = -1.0 / 3.0 *
+          (1.0 - y * 3.0 / 10.0 * (1.0 - y * 5.0 / 84.0 * (1.0 - y * 7.0 / 270.0 * (1.0 - y / 68.444444444444443))));
   } else {
     s = sin(x) / x;
     ds = (cos(x) - s) / x;

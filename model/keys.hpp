@@ -15,7 +15,7 @@ namespace sphstab {
 enum class KeyKind { number, integer, word, numbers, integers, text };
 
 /// What a key describes. A command offers the keys of the groups that it reads.
-enum class KeyGroup { discretisation, material, scheme, mode, time, search, distance, lattice_sums };
+enum class KeyGroup { discretisation, material, scheme, mode, time, growth, search, distance, lattice_sums };
 
 /// The interval of the numbers allowed for a key (of every component of a list).
 struct Limits {
@@ -47,7 +47,8 @@ using KeyValue = std::variant<double, std::string, std::vector<double>>;
 /// The value of a key from its text on the command line; lists are comma-separated. Throws InvalidInput naming the key.
 KeyValue parse_value(const Key& key, std::string_view text);
 
-/// Throws InvalidInput naming key, value and what is allowed unless the value has the key's kind and lies in its limits.
+/// Throws InvalidInput naming key, value and what is allowed unless the value has the key's kind and lies in its
+/// limits.
 void check_value(const Key& key, const KeyValue& value);
 
 }  // namespace sphstab

@@ -37,6 +37,9 @@ Eigen::MatrixXd unit_primitive_vectors(LatticeKind kind) {
   return {};
 }
 
+/// Sites that a search for neighbours may look at; more than a million neighbours are a mistake.
+constexpr double largest_search = 4e6;
+
 /// Calls visit(n) for every index with |n_i| ≤ reach_i.
 template <int Dim, class Visit>
 void for_each_index(const LatticeIndex<Dim>& reach, const Visit& visit) {
@@ -52,7 +55,8 @@ void for_each_index(const LatticeIndex<Dim>& reach, const Visit& visit) {
 
 template <int Dim>
 bool before(const LatticeNeighbour<Dim>& left, const LatticeNeighbour<Dim>& right) {
-  if (std::abs(left.distance - right.distance) > shell_tolerance * right.distance) return left.distance < right.distance;
+  if (std::abs(left.distance - right.distance) > shell_tolerance * right.distance)
+    return left.distance < right.distance;
   return std::lexicographical_compare(left.index.data(), left.index.data() + Dim, right.index.data(),
                                       right.index.data() + Dim);
 }
@@ -61,25 +65,34 @@ bool before(const LatticeNeighbour<Dim>& left, const LatticeNeighbour<Dim>& righ
 
 int dimension_of(LatticeKind kind) { return static_cast<int>(unit_primitive_vectors(kind).rows()); }
 
+std::vector<LatticeKind> lattices_of(int dimension) {
+  std::vector<LatticeKind> kinds;
+  for (const auto& [kind, name] : Names<LatticeKind>::table)
+    if (dimension_of(kind) == dimension) kinds.push_back(kind);
+  return kinds;
+}
+
 template <int Dim>
 Lattice<Dim>::Lattice(LatticeKind kind, double spacing) : kind_(kind), spacing_(spacing) {
-  if (!(spacing > 0.0) || !std::isfinite(spacing))
-    throw InvalidInput(fmt::format("spacing: {} is not a positive finite number", spacing));
+  require_positive("spacing", spacing);
   if (dimension_of(kind) != Dim)
     throw InvalidInput(fmt::format("lattice: {} has {} dimension{}, not {}", name_of(kind), dimension_of(kind),
                                    dimension_of(kind) == 1 ? "" : "s", Dim));
   primitive_ = spacing * unit_primitive_vectors(kind);
   reciprocal_ = 2.0 * std::numbers::pi * primitive_.inverse().transpose();
   cell_volume_ = std::abs(primitive_.determinant());
+  if (!std::isnormal(cell_volume_))
+    throw InvalidInput(fmt::format("spacing: {} makes a cell whose volume leaves the range of a double", spacing));
 }
 
 template <int Dim>
 std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattice, double support, NeighbourRule rule) {
   // |n_i| = |b_i · x| / 2π ≤ |b_i| support / 2π.
-  LatticeIndex<Dim> reach;
-  for (int i = 0; i < Dim; ++i)
-    reach[i] =
-        static_cast<int>(std::floor(lattice.reciprocal_vectors().col(i).norm() * support / (2.0 * std::numbers::pi)));
+  const Vector<Dim> bounds = lattice.reciprocal_vectors().colwise().norm() * support / (2.0 * std::numbers::pi);
+  if (!((2.0 * bounds.array() + 1.0).prod() <= largest_search))
+    throw InvalidInput(fmt::format("smoothing_length: the support {:g} is {:.3g} spacings, too many neighbours",
+                                   support, support / lattice.spacing()));
+  const LatticeIndex<Dim> reach = bounds.array().floor().template cast<int>();
   std::vector<LatticeNeighbour<Dim>> neighbours;
   for_each_index<Dim>(reach, [&](const LatticeIndex<Dim>& n) {
     if (n.isZero()) return;

@@ -24,6 +24,9 @@ struct Names<LatticeKind> {
 /// The dimension in which a lattice lives.
 int dimension_of(LatticeKind kind);
 
+/// The lattices of a dimension.
+std::vector<LatticeKind> lattices_of(int dimension);
+
 /// Which lattice sites within the support interact.
 enum class NeighbourRule {
   support,  ///< every site strictly inside the support
@@ -40,8 +43,8 @@ struct Names<NeighbourRule> {
 template <int Dim>
 class Lattice {
  public:
-  /// The primitive vectors of `kind` times `spacing` (a length): chain (1); square (1,0),(0,1); hexagonal (1,0),(1/2,√3/2);
-  /// staggered (1,0),(1/2,1), the "face-centred cells" of Gray et al.; cubic (1,0,0),(0,1,0),(0,0,1);
+  /// The primitive vectors of `kind` times `spacing` (a length): chain (1); square (1,0),(0,1); hexagonal
+  /// (1,0),(1/2,√3/2); staggered (1,0),(1/2,1), the "face-centred cells" of Gray et al.; cubic (1,0,0),(0,1,0),(0,0,1);
   /// bcc (−1,1,1),(1,−1,1),(1,1,−1) over √3 and fcc (0,1,1),(1,0,1),(1,1,0) over √2, so that spacing is the distance of
   /// nearest neighbours. Throws InvalidInput if spacing is not positive or the kind does not live in `Dim` dimensions.
   Lattice(LatticeKind kind, double spacing);
@@ -76,7 +79,7 @@ struct LatticeNeighbour {
 inline constexpr double tie_margin = 1e-12;
 
 /// The neighbours of a lattice site, itself excluded, ordered by distance, then by index. Both n and −n are present.
-/// Throws InvalidInput naming `smoothing_length` if there is none.
+/// Throws InvalidInput naming `smoothing_length` if there is none, or if there are millions.
 template <int Dim>
 std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattice, double support, NeighbourRule rule);
 

@@ -6,20 +6,15 @@
 #include <cmath>
 
 namespace sphstab {
-namespace {
-
-void require_positive(const char* key, double value) {
-  if (!(value > 0.0) || !std::isfinite(value))
-    throw InvalidInput(fmt::format("{}: {} is not a positive finite number", key, value));
-}
-
-}  // namespace
-
 Material::Material(double density, double shear_modulus, double poisson_ratio, double one_minus_two_nu)
     : density_(density),
       shear_modulus_(shear_modulus),
       poisson_ratio_(poisson_ratio),
-      one_minus_two_nu_(one_minus_two_nu) {}
+      one_minus_two_nu_(one_minus_two_nu) {
+  if (!std::isnormal(shear_modulus / density))
+    throw InvalidInput(
+        fmt::format("density: {} with this modulus makes a wave speed that leaves the range of a double", density));
+}
 
 Material Material::from_young_modulus(double density, double young_modulus, double poisson_ratio) {
   require_positive("density", density);

@@ -5,7 +5,8 @@
 
 namespace sphstab {
 
-/// Two-dimensional elasticity: no strain, or no stress, out of the plane. One- and three-dimensional problems are strain.
+/// Two-dimensional elasticity: no strain, or no stress, out of the plane. One- and three-dimensional problems are
+/// strain.
 enum class Plane { strain, stress };
 
 template <>

@@ -17,7 +17,8 @@ struct Named {
   std::string_view name;
 };
 
-/// The words of an enumeration. Specialised beside each enumeration with a constexpr std::array<Named<Enum>, n> `table`.
+/// The words of an enumeration. Specialised beside each enumeration with a constexpr std::array<Named<Enum>, n>
+/// `table`.
 template <class Enum>
 struct Names;
 

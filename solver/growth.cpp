@@ -31,7 +31,8 @@ GrowthFit judge_growth(std::span<const double> log_amplitude, int stride) {
   const double disagreement = std::abs(last - before) / std::abs(last);
   const auto first = log_amplitude.first(third);
   const bool higher = log_amplitude.back() >= *std::max_element(first.begin(), first.end()) + smallest_e_foldings;
-  const Trend trend = last < smallest ? Trend::bounded : disagreement <= slope_agreement && higher ? Trend::growing : Trend::undecided;
+  const bool steady = disagreement <= slope_agreement && higher;
+  const Trend trend = last < smallest ? Trend::bounded : steady ? Trend::growing : Trend::undecided;
   return {trend, last, smallest, disagreement, (static_cast<long>(log_amplitude.size()) - 1) * stride};
 }
 

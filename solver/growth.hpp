@@ -15,24 +15,24 @@ enum class Trend {
 /// Exponential growth fitted to a run.
 struct GrowthFit {
   Trend trend;
-  double growth_per_step;        ///< slope of ln(amplitude) over the last third of the run
-  double smallest_detectable;    ///< slopes below this count as bounded
-  double disagreement;           ///< |slope over the last third − slope over the second| / slope over the last
-  long steps;                    ///< of the run
+  double growth_per_step;      ///< slope of ln(amplitude) over the last third of the run
+  double smallest_detectable;  ///< slopes below this count as bounded
+  double disagreement;         ///< |slope over the last third − slope over the second| / slope over the last
+  long steps;                  ///< of the run
 };
 
-/// A run counts as growing only if it grows by at least this many e-foldings in each of its last two thirds. A
-/// defective pair (a + bn) rises by no more than ln 2 in a third, so drift can never pass for growth.
+/// A run counts as growing only if it grows by at least this many e-foldings in its last third. A defective pair (a +
+/// bn) rises by no more than ln 2 in a third, so drift can never pass for growth.
 inline constexpr double smallest_e_foldings = 1.0;
 
-/// … and only if the two slopes agree to this fraction and the run ends as far above all of its first third: a beat
-/// (sin θn) has slopes that fall, or returns to a height where it has been.
+/// … and only if the slope of the second third agrees with that of the last to this fraction and the run ends as far
+/// above all of its first third: a beat (sin θn) has slopes that fall, or returns to a height where it has been.
 inline constexpr double slope_agreement = 0.2;
 
-/// Judges ln(amplitude), one value every `stride` steps, the first at step 0: least-squares slopes over the second and the last third.
-/// The amplitude is the square root of the strain energy of the perturbation: rigid motion and zero-energy modes, which
-/// drift linearly in time, have none. Non-finite values must have been cut off. Needs at least 6 values (assertion).
-/// Tested in tests/solver/test_growth.cpp with drift, beating and slow growth.
+/// Judges ln(amplitude), one value every `stride` steps, the first at step 0: least-squares slopes over the second and
+/// the last third. The amplitude is the square root of the strain energy of the perturbation: rigid motion and
+/// zero-energy modes, which drift linearly in time, have none. Non-finite values must have been cut off. Needs at least
+/// 6 values (assertion). Tested in tests/solver/test_growth.cpp with drift, beating and slow growth.
 GrowthFit judge_growth(std::span<const double> log_amplitude, int stride = 1);
 
 }  // namespace sphstab::solver

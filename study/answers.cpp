@@ -74,22 +74,34 @@ Json to_json(const analysis::CriticalMode<Dim>& mode) {
 /// The verdict with what belongs to it: step and bracket, or growth rate, and the critical mode.
 template <int Dim>
 Json to_json(const analysis::StepLimit<Dim>& limit) {
-  return std::visit(Overloaded{[](const analysis::ConditionallyStable<Dim>& stable) -> Json {
-                                 return {{"critical_time_step", stable.critical_time_step},
-                                         {"bracket", {stable.bracket.low, stable.bracket.high}},
-                                         {"verdict", "conditionally-stable"},
-                                         {"critical_mode", to_json<Dim>(stable.mode)}};
-                               },
-                               [](const analysis::UnconditionallyStable&) -> Json {
-                                 return {{"critical_time_step", nullptr}, {"verdict", "unconditionally-stable"}};
-                               },
-                               [](const analysis::NeverStable<Dim>& unstable) -> Json {
-                                 return {{"critical_time_step", nullptr},
-                                         {"verdict", "never-stable"},
-                                         {"growth_rate", unstable.growth_rate},
-                                         {"critical_mode", to_json<Dim>(unstable.mode)}};
-                               }},
-                    limit);
+  return std::visit(
+      Overloaded{
+          [](const analysis::ConditionallyStable<Dim>& stable) -> Json {
+            return {{"critical_time_step", stable.critical_time_step},
+                    {"bracket", {stable.bracket.low, stable.bracket.high}},
+                    {"verdict", "conditionally-stable"},
+                    {"critical_mode", to_json<Dim>(stable.mode)}};
+          },
+          [](const analysis::UnconditionallyStable&) -> Json {
+            return {{"critical_time_step", nullptr}, {"bracket", nullptr}, {"verdict", "unconditionally-stable"}};
+          },
+          [](const analysis::NeverStable<Dim>& unstable) -> Json {
+            return {{"critical_time_step", nullptr},
+                    {"bracket", nullptr},
+                    {"verdict", "never-stable"},
+                    {"growth_rate", unstable.growth_rate},
+                    {"critical_mode", to_json<Dim>(unstable.mode)}};
+          }},
+      limit);
+}
+
+/// Extreme units can under- or overflow a double on the way; an answer that is none must not look like one.
+void require_sound(const Json& limit) {
+  const Json& step = limit["critical_time_step"];
+  if (step.is_null()) return;
+  const double low = limit["bracket"][0], high = limit["bracket"][1];
+  if (!(0.0 < low && low <= step.get<double>() && step.get<double>() <= high && std::isfinite(high)))
+    throw InvalidInput("spacing, density and moduli: together they leave the range of a double; choose other units");
 }
 
 template <int Dim>
@@ -97,6 +109,7 @@ Json equivalents(const Problem<Dim>& problem, double critical_time_step) {
   Json rows = Json::array();
   for (const auto& rule : rules_of_thumb(problem.material, problem.kernel.smoothing_length(), Dim)) {
     const double factor = critical_time_step / rule.unit;
+    if (!std::isfinite(factor)) continue;  // an infinite bulk modulus leaves no step
     Json row{{"rule", rule.rule}, {"formula", rule.formula}, {"factor_at_limit", factor}};
     row["default"] = rule.default_factor ? Json(*rule.default_factor) : Json();
     row["default_is_safe"] = rule.default_factor ? Json(*rule.default_factor <= factor) : Json();
@@ -129,6 +142,7 @@ template <int Dim>
 Json time_step_answer(const Case& input) {
   const auto problem = make_problem<Dim>(input);
   Json answer = to_json<Dim>(analysis::bulk_limit(problem));
+  require_sound(answer);
   const Json step = answer["critical_time_step"];
   answer["bulk_only"] = true;
   answer["note"] = bulk_note;
@@ -145,7 +159,7 @@ Json time_step_answer(const Case& input) {
                                  {"holds", step.is_number() && *bound <= step.get<double>()}};
   if (input.has("wave_vector") || input.has("mode"))
     answer["mode_limit"] = to_json<Dim>(analysis::mode_limit(problem, make_wave_vector<Dim>(input)));
-  else if (const auto box = make_size<Dim>(input, "box"))
+  if (const auto box = make_size<Dim>(input, "box"); box && !input.has("mode"))
     answer["box_limit"] = to_json<Dim>(analysis::paper_limit(problem, *box));
   if (const auto growth = tolerated_growth(input)) {
     const auto tolerable = analysis::step_for_growth(problem, *growth);
@@ -155,7 +169,8 @@ Json time_step_answer(const Case& input) {
     answer["spectral_radius_at_time_step"] = analysis::zone_spectral_radius(problem, *time_step);
   const auto zeros = analysis::zero_energy_modes(problem);
   answer["zero_energy_modes"] = Json::array();
-  for (const auto& wave_vector : zeros.wave_vectors) answer["zero_energy_modes"].push_back(components<Dim>(wave_vector));
+  for (const auto& wave_vector : zeros.wave_vectors)
+    answer["zero_energy_modes"].push_back(components<Dim>(wave_vector));
   answer["zero_energy_modes_complete"] = zeros.complete;
   return answer;
 }
@@ -179,6 +194,8 @@ Json matrix_answer(const Case& input) {
 
 template <int Dim>
 constexpr int default_patch_cells = Dim == 3 ? 8 : 16;
+/// Below it the runs would take millions of steps and rounding would decide.
+constexpr double least_tolerance = 1e-10;
 
 template <int Dim>
 BodyChoice<Dim> body_choice(const Case& input) {
@@ -197,27 +214,29 @@ Json bisection_answer(const Case& input, const Progress& progress) {
   RunOptions options{.start_from_mode = input.required_word("seed") == "mode",
                      .noise_seed = static_cast<unsigned>(input.required_number("noise_seed")),
                      .tolerance = input.required_number("tolerance")};
+  if (options.tolerance < least_tolerance)
+    throw InvalidInput(fmt::format("tolerance: {:g} is not at least {:g}", options.tolerance, least_tolerance));
   if (const auto horizon = input.number("horizon")) options.horizon = static_cast<long>(*horizon);
   if (progress)
-    options.progress = [&](double low, double high) {
-      progress(std::clamp(std::log((high - low) / high) / std::log(options.tolerance), 0.0, 1.0));
-    };
+    options.progress = [&](double low, double high) { progress(closed_fraction(low, high, options.tolerance)); };
   const auto command = input.word("command");
   const auto found = compare_step(problem, choice, options, command ? foreign_solver(*command) : nullptr);
   const auto counts = std::vector<int>(choice.counts.data(), choice.counts.data() + Dim);
-  return {{choice.boundary == Boundary::free ? "plate" : "patch", counts},
-          {"critical_time_step", number_or_null(found.run.critical_time_step)},
-          {"bracket", {found.run.low, found.run.high}},
-          {"theory", number_or_null(found.theory)},
-          {"relative_difference", number_or_null(found.relative_difference())},
-          {"tolerance", options.tolerance},
-          {"agrees", found.agrees(options.tolerance)},
-          {"bulk_theory", number_or_null(found.bulk_theory)},
-          {"patch_deficit", number_or_null(found.patch_deficit())},
-          {"horizon", found.run.horizon},
-          {"runs", found.run.runs},
-          {"steps", found.run.steps},
-          {"smallest_detectable_growth", found.run.smallest_detectable}};
+  Json answer{{choice.boundary == Boundary::free ? "plate" : "patch", counts},
+              {"critical_time_step", number_or_null(found.run.critical_time_step)},
+              {"bracket", {found.run.low, std::isfinite(found.run.high) ? Json(found.run.high) : Json()}},
+              {"theory", number_or_null(found.theory.critical_time_step)},
+              {"relative_difference", number_or_null(found.relative_difference())},
+              {"tolerance", options.tolerance},
+              {"agrees", found.agrees(options.tolerance)},
+              {"bulk_theory", number_or_null(found.bulk_theory)},
+              {"patch_deficit", number_or_null(found.patch_deficit())},
+              {"horizon", found.run.horizon},
+              {"runs", found.run.runs},
+              {"steps", found.run.steps},
+              {"smallest_detectable_growth", found.run.smallest_detectable}};
+  if (found.theory.growth_rate) answer["theory_growth_rate"] = *found.theory.growth_rate;
+  return answer;
 }
 
 template <int Dim>

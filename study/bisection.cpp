@@ -21,7 +21,8 @@ constexpr long scan_horizon = 200;
 constexpr double approach = 0.02;
 /// Growths closer than this relative difference tell nothing of the law.
 constexpr double smallest_separation = 1e-2;
-/// The linear term of the law matters from this part of the quadratic one on; below it is what errors of growth make it.
+/// The linear term of the law matters from this part of the quadratic one on; below it is what errors of growth make
+/// it.
 constexpr double smallest_linear_part = 0.2;
 /// Faster growth is measured over too few steps for that.
 constexpr double largest_trusted_x = 0.5;
@@ -40,8 +41,8 @@ struct GrowingStep {
 };
 
 /// Δt(x) = limit + linear x + quadratic x² through the growing steps nearest to the limit. Where two eigenvalues λ, 1/λ
-/// meet on the unit circle, x² is analytic in Δt and the linear term vanishes; where one crosses the circle alone (damping,
-/// viscosity), x itself is. The fit holds for both and for all between.
+/// meet on the unit circle, x² is analytic in Δt and the linear term vanishes; where one crosses the circle alone
+/// (damping, viscosity), x itself is. The fit holds for both and for all between.
 struct GrowthLaw {
   double limit, linear, quadratic;
 
@@ -66,7 +67,12 @@ GrowthLaw interpolated_law(const GrowingStep& p, const GrowingStep& q, const Gro
   return {p.time_step - (linear + quadratic * p.x) * p.x, linear, quadratic};
 }
 
-long horizon_for_growth(double growth_per_step) { return static_cast<long>(std::ceil(e_foldings / growth_per_step)); }
+/// A step that did not grow, in a run that can show growth of `smallest_detectable` and more.
+struct BoundedStep {
+  double time_step;
+  long horizon;
+  double smallest_detectable;
+};
 
 class Search {
  public:
@@ -74,8 +80,17 @@ class Search {
       : probe_(probe), options_(options), horizon_(options.horizon.value_or(default_horizon(options.tolerance))) {}
 
   Bisection run() {
-    if (scan()) refine();
-    return {critical_time_step(), low_, high_, horizon_, runs_, steps_, smallest_detectable_};
+    scan(std::min(scan_horizon, horizon_), options_.start);
+    if (low_ > 0.0 && std::isfinite(high_)) refine();
+    const auto lowest =
+        std::find_if(bounded_.begin(), bounded_.end(), [&](const auto& b) { return b.time_step == low_; });
+    return {critical_time_step(),
+            low_,
+            high_,
+            horizon_,
+            runs_,
+            steps_,
+            lowest == bounded_.end() ? 0.0 : lowest->smallest_detectable};
   }
 
  private:
@@ -88,41 +103,54 @@ class Search {
       high_ = time_step;
       growing_.insert(growing_.begin(), {time_step, 2.0 * std::sinh(0.5 * fit.growth_per_step)});
     } else {
-      low_ = time_step;
-      low_horizon_ = horizon;
-      smallest_detectable_ = fit.smallest_detectable;
+      bounded_.push_back({time_step, horizon, fit.smallest_detectable});
     }
+    find_low();
     if (options_.progress) options_.progress(low_, high_);
     return growing;
   }
 
-  /// Finds neighbouring steps of the scan, the lower one bounded and the upper one growing.
-  bool scan() {
-    const long horizon = std::min(scan_horizon, horizon_);
-    double time_step = options_.start;
-    if (grows(time_step, horizon)) {
-      for (int i = 0; i < scan_limit; ++i)
-        if (!grows(time_step /= scan_factor, horizon)) return true;
-      return false;
+  /// The largest bounded step below `high_`, without those that may well have grown: too slowly for their runs, if the
+  /// law of the growing steps holds.
+  void find_low() {
+    const auto fitted = law();
+    low_ = 0.0;
+    for (const BoundedStep& step : bounded_) {
+      const bool may_grow =
+          fitted && fitted->limit < step.time_step && fitted->x(step.time_step) < step.smallest_detectable;
+      if (step.time_step < high_ && !may_grow) low_ = std::max(low_, step.time_step);
     }
-    for (int i = 0; i < scan_limit; ++i)
-      if (grows(time_step *= scan_factor, horizon)) return true;
-    return false;
   }
 
-  bool inside(const GrowthLaw& law) const { return law.limit > low_ && law.limit < high_; }
+  /// Finds neighbouring steps of the scan, the lower one bounded and the upper one growing, as far as there are any.
+  void scan(long horizon, double time_step) {
+    if (grows(time_step, horizon)) {
+      for (int i = 0; i < scan_limit; ++i)
+        if (!grows(time_step /= scan_factor, horizon)) return;
+    } else {
+      for (int i = 0; i < scan_limit; ++i)
+        if (grows(time_step *= scan_factor, horizon)) return;
+    }
+  }
 
-  /// The law of growth near the limit, if one through the nearest steps has its limit in the bracket: the square-root law
-  /// unless a third step shows that the linear term matters.
+  /// The law of growth near the limit, if the growing steps give one: the square-root law unless a third step shows
+  /// that the linear term matters.
   std::optional<GrowthLaw> law() const {
-    const auto distinct = [this](std::size_t i) { return growing_[i].x > (1.0 + smallest_separation) * growing_[i - 1].x; };
+    const auto distinct = [this](std::size_t i) {
+      return growing_[i].x > (1.0 + smallest_separation) * growing_[i - 1].x;
+    };
     if (growing_.size() < 2 || !distinct(1)) return std::nullopt;
     if (growing_.size() > 2 && distinct(2) && growing_[2].x < largest_trusted_x) {
       const auto law = interpolated_law(growing_[0], growing_[1], growing_[2]);
-      if (inside(law) && law.linear > smallest_linear_part * law.quadratic * growing_[0].x) return law;
+      if (law.linear > smallest_linear_part * std::abs(law.quadratic) * growing_[0].x) return law;
     }
-    const auto law = square_root_law(growing_[0], growing_[1]);
-    return inside(law) ? std::optional(law) : std::nullopt;
+    return square_root_law(growing_[0], growing_[1]);
+  }
+
+  /// The law, if its limit lies in the bracket.
+  std::optional<GrowthLaw> law_inside() const {
+    const auto fitted = law();
+    return fitted && fitted->limit > low_ && fitted->limit < high_ ? fitted : std::nullopt;
   }
 
   /// Halving needs no more steps than show growth at a quarter of the interval, if growth is like a square root.
@@ -132,37 +160,51 @@ class Search {
   }
 
   /// Runs the most telling step inside the bracket: far from the limit one close above it, for a better law; then a
-  /// quarter of the tolerance above it, then half below, where the beat is faster.
-  void run_inside() {
+  /// quarter of the tolerance above it, then half below, where the beat is faster. False where the growth that the law
+  /// predicts there is too slow for the longest run allowed.
+  bool run_inside() {
     const double margin = 0.25 * options_.tolerance * high_;
-    const auto fitted = law();
+    const auto fitted = law_inside();
     if (!fitted || (high_ - fitted->limit <= 1.5 * margin && fitted->limit - 2.0 * margin <= low_)) {
       grows(0.5 * (low_ + high_), halving_horizon());
-      return;
+      return true;
     }
     const double gap = high_ - fitted->limit;
+    if (gap <= 1.5 * margin) {
+      grows(fitted->limit - 2.0 * margin, horizon_);
+      return true;
+    }
     const double above = fitted->limit + (gap > 8.0 * margin ? std::max(approach * gap, margin) : margin);
+    const long needed = horizon_for_growth(fitted->x(above));
     if (!options_.horizon)
-      horizon_ = std::clamp(horizon_for_growth(fitted->x(above)), horizon_, longest_horizon * default_horizon(options_.tolerance));
-    grows(gap > 1.5 * margin ? above : fitted->limit - 2.0 * margin, horizon_);
+      horizon_ = std::clamp(needed, horizon_, longest_horizon * default_horizon(options_.tolerance));
+    return grows(above, horizon_) || needed <= horizon_;
   }
 
   void refine() {
-    for (int i = 0; i < refinement_limit; ++i) {
-      if (high_ - low_ > options_.tolerance * high_)
-        run_inside();
-      else if (low_horizon_ == horizon_)
+    for (int i = 0; i < refinement_limit && low_ > 0.0; ++i) {
+      if (high_ - low_ > options_.tolerance * high_) {
+        if (!run_inside()) return;
+      } else if (ran_long(low_)) {
         return;
-      else if (grows(low_, horizon_)) {  // its run was too short to see it: go on below with long ones only
-        low_ /= scan_factor;
+      } else if (grows(low_, horizon_)) {  // its run was too short to see it: only long runs count from here on
         short_runs_deceive_ = true;
+        std::erase_if(bounded_, [this](const BoundedStep& step) { return step.horizon < horizon_; });
+        scan(horizon_, high_ / scan_factor);
       }
     }
   }
 
+  bool ran_long(double time_step) const {
+    return std::any_of(bounded_.begin(), bounded_.end(), [&](const BoundedStep& step) {
+      return step.time_step == time_step &&
+             (step.horizon >= horizon_ || step.horizon >= default_horizon(options_.tolerance));
+    });
+  }
+
   std::optional<double> critical_time_step() const {
     if (!(low_ > 0.0) || !std::isfinite(high_)) return std::nullopt;
-    const auto fitted = law();
+    const auto fitted = law_inside();
     return fitted ? fitted->limit : 0.5 * (low_ + high_);
   }
 
@@ -170,16 +212,22 @@ class Search {
   const BisectionOptions& options_;
   long horizon_;
   double low_ = 0.0;
-  long low_horizon_ = 0;  ///< of the run that found `low_` bounded
   double high_ = std::numeric_limits<double>::infinity();
   std::vector<GrowingStep> growing_;  ///< nearest to the limit first
+  std::vector<BoundedStep> bounded_;
   bool short_runs_deceive_ = false;
   int runs_ = 0;
   long steps_ = 0;
-  double smallest_detectable_ = 0.0;
 };
 
 }  // namespace
+
+long horizon_for_growth(double growth_per_step) { return static_cast<long>(std::ceil(e_foldings / growth_per_step)); }
+
+double closed_fraction(double low, double high, double tolerance) {
+  if (!(low > 0.0) || !std::isfinite(high)) return 0.0;
+  return std::clamp(std::log((high - low) / high) / std::log(tolerance), 0.0, 1.0);
+}
 
 long default_horizon(double tolerance) { return horizon_for_growth(std::sqrt(2.0 * tolerance)); }
 

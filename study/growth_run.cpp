@@ -14,17 +14,19 @@ using solver::GrowthFit;
 using solver::State;
 using solver::Trend;
 
-/// Size of the perturbation, √(strain energy / (p-wave modulus · volume)): a strain. Six digits above rounding even on a
-/// base state of strain 1, so that noise of the arithmetic stays small beside it.
+/// Size of the perturbation, √(strain energy / (p-wave modulus · volume)): a strain. Six digits above rounding even on
+/// a base state of strain 1, so that noise of the arithmetic stays small beside it.
 constexpr double seed_strain = 1e-10;
-/// A linear scheme may grow until the modes have parted; a nonlinear one must stay below strains of 2e-5, where the error
-/// of the growth is of that order.
+/// A linear scheme may grow until the modes have parted; a nonlinear one must stay below strains of 2e-5, where the
+/// error of the growth is of that order.
 constexpr double linear_e_foldings = 40.0;
 constexpr double nonlinear_e_foldings = 12.0;
+/// A displacement s of which SPH sees less strain than this times s/h consists of zero-energy modes.
+constexpr double smallest_strain = 1e-12;
 /// Noise beside the fastest mode of the run before.
 constexpr double noise_beside_mode = 0.1;
-/// Runs are judged for the first time at this part of the horizon, and again whenever they are twice as long; those that
-/// grow at one rate by then end, undecided ones go on up to `longest_run` horizons.
+/// Runs are judged for the first time at this part of the horizon, and again whenever they are twice as long; those
+/// that grow at one rate by then end, undecided ones go on up to `longest_run` horizons.
 constexpr int first_look = 8;
 constexpr int longest_run = 4;
 /// Relative difference of two slopes below which a growth is known well enough to find the root of the bisection.
@@ -70,6 +72,10 @@ GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, co
                                                                                      : nonlinear_e_foldings),
       seed_(body.size()) {
   seed_.displacement = displacement;
+  double square = 0.0;
+  for (const auto& s : displacement) square += s.squaredNorm() / static_cast<double>(body.size());
+  if (!(amplitude(seed_) > smallest_strain * std::sqrt(square) / problem.kernel.smoothing_length()))
+    throw InvalidInput("patch: no perturbation of it has a strain energy (zero-energy modes only); take a larger one");
   scale_to_seed(seed_);
 }
 
@@ -94,7 +100,8 @@ State<Dim> GrowthRun<Dim>::start() const {
 }
 
 template <int Dim>
-bool GrowthRun<Dim>::run(long end, double time_step, int stride, State<Dim>& state, std::vector<double>& log_amplitude) {
+bool GrowthRun<Dim>::run(long end, double time_step, int stride, State<Dim>& state,
+                         std::vector<double>& log_amplitude) {
   while (stride * static_cast<long>(log_amplitude.size() - 1) < end) {
     simulation_.advance(state, time_step, stride);
     const double next = std::log(amplitude(state));

@@ -12,16 +12,16 @@ namespace sphstab::study {
 
 /// Runs one body at one time step after another and measures how the strain energy of a small perturbation grows.
 ///
-/// A run starts from noise in the displacements, or from a given displacement, at rest (so that zero-energy modes do not
-/// even drift). After a growing run the fastest mode is known to the solver: the next run starts from it with a tenth of
-/// noise, which shows growth early without taking anything from the theory.
+/// A run starts from noise in the displacements, or from a given displacement, at rest (so that zero-energy modes do
+/// not even drift). After a growing run the fastest mode is known to the solver: the next run starts from it with a
+/// tenth of noise, which shows growth early without taking anything from the theory.
 template <int Dim>
 class GrowthRun {
  public:
   /// Perturbs with random displacements of every particle; the same `noise_seed` gives the same run on every machine.
   GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, unsigned noise_seed);
 
-  /// Perturbs with this displacement only.
+  /// Perturbs with this displacement only. Both throw InvalidInput (`patch`) for a perturbation without strain energy.
   GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const solver::Field<Dim>& displacement);
 
   /// Runs `horizon` steps, up to four times as many while the trend is undecided, fewer once the growth is plain. Its

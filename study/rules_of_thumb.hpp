@@ -11,9 +11,9 @@ namespace sphstab::study {
 
 /// A step rule Δt = factor · unit of another code, and what this case makes of it.
 struct RuleOfThumb {
-  std::string_view rule;     ///< the code and the name of the rule there
-  std::string_view formula;  ///< of the unit, with K and G the three-dimensional moduli
-  double unit;               ///< h / wave speed of this case, a time
+  std::string_view rule;                 ///< the code and the name of the rule there
+  std::string_view formula;              ///< of the unit, with K and G the three-dimensional moduli
+  double unit;                           ///< h / wave speed of this case, a time
   std::optional<double> default_factor;  ///< nothing where the code leaves it to the user
 };
 

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/amplification.hpp"
 #include "analysis/body_operator.hpp"
@@ -15,7 +17,7 @@ namespace sphstab::study {
 namespace {
 
 /// The scan starts at this fraction of h over the p-wave speed; no kernel or lattice has its limit below 1.4 h/c_p in
-/// bulk (theory.md §6), and normalised edges lower it to 0.6 of that.
+/// bulk (theory.md §6), and normalised edges lower it to 0.6 of that. The limit of damping alone is 2 over its rate.
 constexpr double start_fraction = 0.3;
 
 template <int Dim>
@@ -43,30 +45,45 @@ std::optional<double> step_of(const analysis::StepLimit<Dim>& limit) {
 template <int Dim>
 double scan_start(const Problem<Dim>& problem) {
   const double modulus = problem.material.lame(problem.plane).p_wave_modulus();
-  return start_fraction * problem.kernel.smoothing_length() * std::sqrt(problem.material.density() / modulus);
+  const double of_waves = problem.kernel.smoothing_length() * std::sqrt(problem.material.density() / modulus);
+  const auto& damping = problem.scheme.damping;
+  return start_fraction * (damping ? std::min(of_waves, 1.0 / damping->rate) : of_waves);
+}
+
+/// One run at one step, long enough for growth of that rate: everything grows, or nothing does.
+Bisection run_once(const GrowthProbe& run, double time_step, double growth_rate) {
+  const auto fit = run(time_step, 3 * horizon_for_growth(growth_rate * time_step));
+  const bool grows = fit.trend == solver::Trend::growing;
+  return {
+      std::nullopt, grows ? 0.0 : time_step, grows ? time_step : std::numeric_limits<double>::infinity(), fit.steps, 1,
+      fit.steps,    fit.smallest_detectable};
 }
 
 }  // namespace
 
 std::optional<double> StepComparison::relative_difference() const {
-  if (!run.critical_time_step || !theory) return std::nullopt;
-  return std::abs(*run.critical_time_step - *theory) / *theory;
+  if (!run.critical_time_step || !theory.critical_time_step) return std::nullopt;
+  return std::abs(*run.critical_time_step / *theory.critical_time_step - 1.0);
 }
 
 std::optional<double> StepComparison::patch_deficit() const {
-  if (!theory || !bulk_theory) return std::nullopt;
-  return *theory / *bulk_theory - 1.0;
+  if (!theory.critical_time_step || !bulk_theory) return std::nullopt;
+  return *theory.critical_time_step / *bulk_theory - 1.0;
 }
 
 bool StepComparison::agrees(double tolerance) const {
-  const auto difference = relative_difference();
-  return difference ? *difference <= tolerance : !run.critical_time_step && !theory;
+  if (theory.critical_time_step) return relative_difference() && *relative_difference() <= tolerance;
+  return theory.growth_rate ? run.low == 0.0 : !std::isfinite(run.high);
 }
 
 template <int Dim>
-std::optional<double> theory_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
-  if (choice.boundary == Boundary::periodic) return step_of<Dim>(analysis::patch_limit(problem, choice.counts));
-  return analysis::dense_body_limit(problem, make_body(problem, choice)).critical_time_step;
+TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
+  if (choice.boundary == Boundary::free)
+    return {.critical_time_step = analysis::dense_body_limit(problem, make_body(problem, choice)).critical_time_step};
+  const auto limit = analysis::patch_limit(problem, choice.counts);
+  if (const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit))
+    return {.growth_rate = unstable->growth_rate};
+  return {.critical_time_step = step_of<Dim>(limit)};
 }
 
 template <int Dim>
@@ -85,14 +102,16 @@ solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const
   }
   const auto limit = analysis::patch_limit(problem, choice.counts);
   const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit);
-  if (stable == nullptr) throw InvalidInput("seed: there is no critical mode to start from; use noise");
-  const Vector<Dim> k = stable->mode.wave_vector;
+  const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit);
+  if (stable == nullptr && unstable == nullptr)
+    throw InvalidInput("seed: there is no critical mode to start from; use noise");
+  const Vector<Dim> k = stable ? stable->mode.wave_vector : unstable->mode.wave_vector;
   const Eigen::EigenSolver<Tensor<Dim>> modes(analysis::dynamical_matrix(problem, k));
-  int fastest = 0;
-  modes.eigenvalues().real().maxCoeff(&fastest);
+  int critical = 0;
+  ((stable ? 1.0 : -1.0) * modes.eigenvalues().real()).maxCoeff(&critical);
   // An eighth of a wave off the origin: at a zone boundary a sine would vanish on every particle.
   for (int a = 0; a < body.size(); ++a)
-    displacement[a] = modes.eigenvectors().col(fastest).real() * std::cos(k.dot(body.position[a]) + std::atan(1.0));
+    displacement[a] = modes.eigenvectors().col(critical).real() * std::cos(k.dot(body.position[a]) + std::atan(1.0));
   return displacement;
 }
 
@@ -100,28 +119,30 @@ template <int Dim>
 StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,
                             const GrowthProbe& probe) {
   const auto body = make_body(problem, choice);
+  const auto theory = theory_limit(problem, choice);
   const BisectionOptions search{.start = scan_start(problem),
                                 .tolerance = options.tolerance,
                                 .horizon = options.horizon,
                                 .progress = options.progress};
-  const auto run = [&] {
-    if (probe) return bisect(probe, search);
+  const auto our_solver = [&]() -> GrowthProbe {
     if (options.start_from_mode)
-      return bisect(GrowthRun<Dim>(problem, body, critical_mode_displacement(problem, choice, body)), search);
-    return bisect(GrowthRun<Dim>(problem, body, options.noise_seed), search);
+      return GrowthRun<Dim>(problem, body, critical_mode_displacement(problem, choice, body));
+    return GrowthRun<Dim>(problem, body, options.noise_seed);
   };
-  return {run(), theory_step(problem, choice), bulk_step(problem)};
+  const GrowthProbe run = probe ? probe : our_solver();
+  const Bisection found = theory.growth_rate ? run_once(run, search.start, *theory.growth_rate) : bisect(run, search);
+  return {found, theory, bulk_step(problem)};
 }
 
-template std::optional<double> theory_step(const Problem<1>&, const BodyChoice<1>&);
+template TheoryLimit theory_limit(const Problem<1>&, const BodyChoice<1>&);
 template std::optional<double> bulk_step(const Problem<1>&);
 template solver::Field<1> critical_mode_displacement(const Problem<1>&, const BodyChoice<1>&, const Body<1>&);
 template StepComparison compare_step(const Problem<1>&, const BodyChoice<1>&, const RunOptions&, const GrowthProbe&);
-template std::optional<double> theory_step(const Problem<2>&, const BodyChoice<2>&);
+template TheoryLimit theory_limit(const Problem<2>&, const BodyChoice<2>&);
 template std::optional<double> bulk_step(const Problem<2>&);
 template solver::Field<2> critical_mode_displacement(const Problem<2>&, const BodyChoice<2>&, const Body<2>&);
 template StepComparison compare_step(const Problem<2>&, const BodyChoice<2>&, const RunOptions&, const GrowthProbe&);
-template std::optional<double> theory_step(const Problem<3>&, const BodyChoice<3>&);
+template TheoryLimit theory_limit(const Problem<3>&, const BodyChoice<3>&);
 template std::optional<double> bulk_step(const Problem<3>&);
 template solver::Field<3> critical_mode_displacement(const Problem<3>&, const BodyChoice<3>&, const Body<3>&);
 template StepComparison compare_step(const Problem<3>&, const BodyChoice<3>&, const RunOptions&, const GrowthProbe&);

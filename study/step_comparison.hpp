@@ -24,37 +24,45 @@ struct RunOptions {
   std::function<void(double low, double high)> progress = nullptr;  ///< after each run
 };
 
+/// What theory says of one body: the admitted wave vectors of a patch, the spectrum of a plate. Neither value: nothing
+/// limits Δt.
+struct TheoryLimit {
+  std::optional<double> critical_time_step = std::nullopt;
+  std::optional<double> growth_rate = std::nullopt;  ///< of a body that grows at every Δt, 1 / time
+};
+
 /// The critical step of one body, by running and by theory. Absent values: there is no such step.
 struct StepComparison {
   Bisection run;
-  std::optional<double> theory;       ///< of the same body: admitted wave vectors of a patch, spectrum of a plate
+  TheoryLimit theory;
   std::optional<double> bulk_theory;  ///< of the infinite lattice
 
   /// |run − theory| / theory, if both exist.
   std::optional<double> relative_difference() const;
   /// theory / bulk_theory − 1: a periodic patch misses the critical wave vector, a free plate has edges.
   std::optional<double> patch_deficit() const;
-  /// Both exist and agree within the tolerance, or neither exists.
+  /// Both steps exist and agree within the tolerance, or everything grows in both, or nothing does.
   bool agrees(double tolerance) const;
 };
 
 /// Plates with more particles are refused: the dense spectrum beside the run would take minutes.
 inline constexpr int largest_dense_body = 1600;
 
-/// The critical step by theory alone, of the body or of the infinite lattice.
+/// Theory alone, of the body and of the infinite lattice.
 template <int Dim>
-std::optional<double> theory_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice);
+TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& choice);
 template <int Dim>
 std::optional<double> bulk_step(const Problem<Dim>& problem);
 
-/// The displacement of the theory's critical mode on the body of that choice, up to a factor. Throws InvalidInput (`seed`)
-/// where no mode is critical.
+/// The displacement of the theory's critical mode on the body of that choice, up to a factor. Throws InvalidInput
+/// (`seed`) where no mode is critical.
 template <int Dim>
 solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice,
                                               const Body<Dim>& body);
 
 /// Finds the critical step of the body by running the solver with `probe` if given (a foreign solver), ours otherwise,
-/// and sets theory beside it. Throws InvalidInput (`displacement_gradient`) for a free plate with a base state, which is
+/// and sets theory beside it. Where theory says that every step grows, one small step is run for as long as that growth
+/// needs to show. Throws InvalidInput (`displacement_gradient`) for a free plate with a base state, which is
 /// no equilibrium there, and (`plate`) if it is too large.
 template <int Dim>
 StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,

@@ -93,9 +93,9 @@ TEST_CASE("plate limits agree with the reference, with and without normalisation
 }
 
 TEST_CASE("a periodic patch has exactly the frequencies of its wave vectors", "[fast]") {
-  for (const auto& [lattice, name] : Names<LatticeKind>::table)
+  for (const LatticeKind lattice : lattices_of(2))
     for (const auto normalisation : {KernelNormalisation::none, KernelNormalisation::sum}) {
-      INFO(name);
+      INFO(name_of(lattice));
       auto problem = problem_2d(lattice, KernelFamily::quintic_spline, 1.1);  // the support exceeds half the patch
       problem.scheme.kernel_normalisation = normalisation;
       const LatticeIndex<2> cells(6, 5);

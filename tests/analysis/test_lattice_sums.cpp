@@ -42,8 +42,8 @@ TEST_CASE("the lattice sums agree with the reference", "[fast]") {
 }
 
 TEST_CASE("the gradient symbol is minus the sum A on every lattice", "[fast]") {
-  for (const auto& [lattice, name] : Names<LatticeKind>::table) {
-    INFO(name);
+  for (const LatticeKind lattice : lattices_of(2)) {
+    INFO(name_of(lattice));
     const auto problem = problem_2d(lattice, KernelFamily::quintic_spline, 1.3);
     const GradientSymbol<2> symbol(problem);
     for (const Vector<2>& k : {Vector<2>(0.3, 0.1), Vector<2>(-1.9, 2.7), Vector<2>(3.0, -0.4)}) {
@@ -57,8 +57,8 @@ TEST_CASE("the gradient symbol is minus the sum A on every lattice", "[fast]") {
 }
 
 TEST_CASE("long waves see the consistency matrix, with third-order error", "[fast]") {
-  for (const auto& [lattice, name] : Names<LatticeKind>::table) {
-    INFO(name);
+  for (const LatticeKind lattice : lattices_of(2)) {
+    INFO(name_of(lattice));
     const GradientSymbol<2> symbol(problem_2d(lattice, KernelFamily::cubic_spline, 1.3));
     const auto error = [&](double size) {
       const Vector<2> k(0.8 * size, 0.6 * size);

@@ -171,9 +171,9 @@ TEST_CASE("no scan beats the certified maximum of random series", "[fast]") {
 }
 
 TEST_CASE("no scan beats the certified maximum of SPH symbols, and the enclosure is tight", "[fast]") {
-  for (const auto& [lattice, name] : Names<LatticeKind>::table)
+  for (const LatticeKind lattice : lattices_of(2))
     for (const double h : {0.9, 1.3, 1.55}) {
-      INFO(name << " h = " << h);
+      INFO(name_of(lattice) << " h = " << h);
       const GradientSymbol<2> symbol(problem_2d(lattice, KernelFamily::cubic_spline, h));
       check_against_brute_force(symbol.series(), Tensor<2>::Identity());
       const auto found = zone_maximum<2>(symbol.series(), Tensor<2>::Identity());
@@ -193,10 +193,10 @@ TEST_CASE("an indefinite form on an SPH symbol is certified too", "[fast]") {
 }
 
 TEST_CASE("a slightly indefinite form is positive in a narrow cone of long waves, and found to be", "[fast]") {
-  for (const auto& [lattice, name] : Names<LatticeKind>::table)
+  for (const LatticeKind lattice : lattices_of(2))
     for (const double angle : {0.0, 0.3, 1.1, 2.0})
       for (const double opening : {1e-3, 1e-6}) {
-        INFO(name << " angle " << angle << " opening " << opening);
+        INFO(name_of(lattice) << " angle " << angle << " opening " << opening);
         const Vector<2> e(std::cos(angle), std::sin(angle));
         const Tensor<2> form = opening * e * e.transpose() - (Tensor<2>::Identity() - e * e.transpose());
         const GradientSymbol<2> symbol(problem_2d(lattice, KernelFamily::cubic_spline, 1.3));
@@ -216,8 +216,7 @@ TEST_CASE("a ring of near-maxima gives the right value and an honest bracket", "
     double cutoff;
   };
   for (const auto& ring : {Ring{KernelFamily::gaussian, 2.0, 7.0}, Ring{KernelFamily::gaussian, 1.6, 7.0},
-                           Ring{KernelFamily::wendland_c6, 4.0, 3.0},
-                           Ring{KernelFamily::sinc_5, 2.0, 3.0}}) {
+                           Ring{KernelFamily::wendland_c6, 4.0, 3.0}, Ring{KernelFamily::sinc_5, 2.0, 3.0}}) {
     INFO(name_of(ring.kernel));
     const GradientSymbol<2> symbol(problem_2d(LatticeKind::square, ring.kernel, ring.h, ring.cutoff));
     const auto found = zone_maximum<2>(symbol.series(), Tensor<2>::Identity());
@@ -245,5 +244,7 @@ TEST_CASE("a ring of near-maxima gives the right value and an honest bracket", "
     CHECK(found.lower <= best * (1.0 + ray_spacing_error));
     CHECK(found.upper >= best);
     CHECK(found.upper < best * (1.0 + 1e-4));
+    // On the flattest ring the budget ends first: the bracket must then say so instead of claiming rounding.
+    if (ring.h == 2.0 && ring.cutoff == 7.0) CHECK(found.upper > best * (1.0 + 1e-9));
   }
 }

@@ -112,12 +112,13 @@ TEST_CASE("contradictory keys are refused", "[fast]") {
         "patch: cannot be given with plate");
 }
 
-TEST_CASE("only two dimensions have lattices", "[fast]") {
-  for (const std::string command : {"dt", "matrix", "bisect"})
-    for (const std::string dimension : {"1", "3"})
-      CHECK(complaint_about(on_case(command, {"--dimension", dimension})) ==
-            "dimension: " + dimension + " is not 2, the only dimension that has lattices so far");
+TEST_CASE("a lattice belongs to a dimension, and plane stress to two", "[fast]") {
+  CHECK(dt_complaint({"--dimension", "3", "--lattice", "square"}) == "lattice: square has 2 dimensions, not 3");
+  CHECK(dt_complaint({"--lattice", "fcc"}) == "lattice: fcc has 3 dimensions, not 2");
+  CHECK(dt_complaint({"--dimension", "1", "--plane", "stress"}) == "plane: stress is for 2 dimensions, not 1");
   CHECK(dt_complaint({"--dimension", "4"}) == "dimension: 4 is not at most 3");
+  CHECK(complaint_about(on_case("matrix", {"--dimension", "3", "--wave-vector", "1,2", "--time-step", "0.1"})) ==
+        "wave_vector: has 2 components, but 3 are needed");
 }
 
 TEST_CASE("bodies and boxes that are too large are refused before anything is made of them", "[fast]") {
@@ -170,6 +171,20 @@ TEST_CASE("a report is not written where it cannot be or where it would replace 
   CHECK_THAT(into("none"), EndsWith("none: no such folder"));
   CHECK(io::read_file(folder / "reports/zhang-plate/index.md") == "by hand");
   CHECK(folder.names().size() == 4);
+}
+
+TEST_CASE("what leaves the range of a double, or has nothing to run, is refused in one line", "[fast]") {
+  CHECK_THAT(complaint_about(on_case("dt", {"--spacing", "1e-200"})), StartsWith("spacing: 1e-200 makes a cell"));
+  CHECK_THAT(complaint_about(on_case("dt", {"--spacing", "1e-120"})), StartsWith("smoothing_length: "));
+  CHECK_THAT(complaint_about(on_case("dt", {"--h-over-spacing", "1e10"})), EndsWith("too many neighbours"));
+  CHECK_THAT(complaint_about(on_case("dt", {"--density", "1e-300"})), StartsWith("spacing, density and moduli: "));
+  CHECK_THAT(complaint_about(on_case("dt", {"--time-step", "1e160"})), StartsWith("time_step: 1e+160 is so long"));
+  CHECK_THAT(complaint_about(on_case("matrix", {"--wave-vector", "1,1", "--time-step", "1e160"})),
+             StartsWith("time_step: 1e+160 is so long"));
+  CHECK_THAT(complaint_about(on_case("bisect", {"--tolerance", "1e-15"})),
+             StartsWith("tolerance: 1e-15 is not at least"));
+  for (const char* patch : {"1,1", "2,2"})
+    CHECK_THAT(complaint_about(on_case("bisect", {"--patch", patch})), StartsWith("patch: no perturbation of it"));
 }
 
 TEST_CASE("a result that cannot be written is no success", "[fast]") {

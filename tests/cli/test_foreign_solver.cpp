@@ -68,11 +68,22 @@ TEST_CASE("exit status 1 says that a foreign solver does not keep to the theory"
   CHECK_THAT(text.out, Contains("DOES NOT AGREE"));
 }
 
+TEST_CASE("a foreign solver whose run explodes may stop early, print inf and fail", "[fast]") {
+  // Grows at every step: no critical step, and the claim of theory does not hold.
+  const auto result =
+      run(on_case("bisect", {"--patch", "4,4", "--format", "json", "--command", "echo 1; echo inf; exit 1"}));
+  CHECK(result.status == 1);
+  CHECK(result.json()["critical_time_step"].is_null());
+  CHECK(result.json()["bracket"][0] == 0.0);
+}
+
 TEST_CASE("a foreign solver that fails or prints too little is named", "[fast]") {
   const auto complaint = [](const std::string& command) {
     return complaint_about(on_case("bisect", {"--patch", "4,4", "--command", command}));
   };
-  CHECK_THAT(complaint("exit 3"), StartsWith("command: 'exit 3' ended with status "));
-  CHECK(complaint("true") == "command: 'true' printed 0 amplitudes, but 12 are needed");
-  CHECK(complaint("echo 1; echo 2") == "command: 'echo 1; echo 2' printed 2 amplitudes, but 12 are needed");
+  CHECK_THAT(complaint("exit 3"), StartsWith("command: 'exit 3' ended with status 3"));
+  CHECK(complaint("true") == "command: 'true' printed 0 amplitudes, but 200 are needed");
+  CHECK(complaint("echo 1; echo 2") == "command: 'echo 1; echo 2' printed 2 amplitudes, but 200 are needed");
+  // Twenty steps without growth are no evidence for two hundred.
+  CHECK_THAT(complaint("yes 1 | head -n 20"), Catch::EndsWith("printed 20 amplitudes, but 200 are needed"));
 }

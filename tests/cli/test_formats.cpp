@@ -180,7 +180,8 @@ TEST_CASE("list knows every topic, and what it lists is accepted", "[fast]") {
     CHECK(!all[topic].empty());
   }
   for (const Json& kernel : all["kernels"]) result_of(on_case("dt", {"--kernel", kernel["name"]}));
-  for (const Json& lattice : all["lattices"]) result_of(on_case("dt", {"--lattice", lattice["name"]}));
+  for (const Json& lattice : all["lattices"])
+    result_of(on_case("dt", {"--dimension", lattice["dimension"].dump(), "--lattice", lattice["name"]}));
   for (const Json& integrator : all["integrators"]) result_of(on_case("dt", {"--integrator", integrator["name"]}));
 }
 

@@ -14,12 +14,8 @@ struct NamedProblem {
   Problem<Dim> problem;
 };
 
-/// The lattices of a dimension.
-template <int Dim>
-std::vector<LatticeKind> lattices();
-
-/// Every kernel on every lattice, and on every lattice every term of the scheme switched on; moduli, density and spacing
-/// are no round numbers, so that no factor is 1 by accident.
+/// Every kernel on every lattice (in 3D on the cubic one, two on the others), and on every lattice every term of the
+/// scheme switched on; moduli, density and spacing are no round numbers, so that no factor is 1 by accident.
 template <int Dim>
 std::vector<NamedProblem<Dim>> every_variant();
 

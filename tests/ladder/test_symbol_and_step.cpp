@@ -43,7 +43,8 @@ double bulk_step(const Problem<Dim>& problem) {
   return std::get<analysis::ConditionallyStable<Dim>>(analysis::bulk_limit(problem)).critical_time_step;
 }
 
-/// ω_max² of the infinite lattice: the scale of the dynamical matrix also on a patch that admits zero-energy modes only.
+/// ω_max² of the infinite lattice: the scale of the dynamical matrix also on a patch that admits zero-energy modes
+/// only.
 template <int Dim>
 double largest_frequency_squared(const Problem<Dim>& problem) {
   const auto limit = std::get<analysis::ConditionallyStable<Dim>>(analysis::bulk_limit(problem));

@@ -57,7 +57,8 @@ TEST_CASE("a periodic patch has every image within the support, also where it is
             for (int j = -images; j <= images; ++j) {
               const Vector<2> shift = p.lattice.site({i * cells[0], j * cells[1]});
               const Vector<2> separation = patch.position[a] - (patch.position[b] + shift);
-              if (separation.norm() < rounding || separation.norm() >= p.kernel.support() * (1.0 - tie_margin)) continue;
+              if (separation.norm() < rounding || separation.norm() >= p.kernel.support() * (1.0 - tie_margin))
+                continue;
               CHECK(occurrences(patch, a, b, separation) == 1);
               ++pairs;
             }
@@ -66,7 +67,9 @@ TEST_CASE("a periodic patch has every image within the support, also where it is
 }
 
 TEST_CASE("plates need the square lattice and at least two particles each way", "[fast]") {
-  CHECK_THROWS_WITH(free_plate<2>(problem(LatticeKind::hexagonal, 0.8), {4, 4}), Catch::StartsWith("plate: a free plate"));
-  CHECK_THROWS_WITH(free_plate<2>(problem(LatticeKind::square, 0.8), {4, 1}), Catch::StartsWith("plate: 4,1 has a count"));
+  CHECK_THROWS_WITH(free_plate<2>(problem(LatticeKind::hexagonal, 0.8), {4, 4}),
+                    Catch::StartsWith("plate: a free plate"));
+  CHECK_THROWS_WITH(free_plate<2>(problem(LatticeKind::square, 0.8), {4, 1}),
+                    Catch::StartsWith("plate: 4,1 has a count"));
   CHECK_THROWS_WITH(periodic_patch<2>(problem(LatticeKind::square, 0.8), {4, 0}), Catch::StartsWith("patch: 4,0"));
 }

@@ -14,9 +14,7 @@ Case read(std::initializer_list<std::pair<std::string_view, std::string_view>> e
   return input;
 }
 
-Case complete() {
-  return read({{"scheme", "tl-linear"}, {"young_modulus", "1.3"}, {"poisson_ratio", "0.3"}});
-}
+Case complete() { return read({{"scheme", "tl-linear"}, {"young_modulus", "1.3"}, {"poisson_ratio", "0.3"}}); }
 
 Case complete_with(std::string_view key, std::string_view text) {
   Case input = complete();
@@ -92,8 +90,9 @@ TEST_CASE("a bad value names its key, itself and what is allowed", "[fast]") {
   CHECK_THROWS_WITH(read({{"patch", "8.5,8"}}), "patch: 8.5 is not a whole number");
   CHECK_THROWS_WITH(read({{"patch", "8,"}}), "patch: '' is not a number");
   CHECK_THROWS_WITH(read({{"patch", "8,99999999999"}}), Catch::EndsWith("is too large"));
-  CHECK_THROWS_WITH(read({{"kernel", "gausian"}}),
-                    Catch::StartsWith("kernel: 'gausian' is not known; did you mean 'gaussian'? Allowed: cubic-spline"));
+  CHECK_THROWS_WITH(
+      read({{"kernel", "gausian"}}),
+      Catch::StartsWith("kernel: 'gausian' is not known; did you mean 'gaussian'? Allowed: cubic-spline"));
   CHECK_THROWS_WITH(read({{"smothing_length", "1"}}), Catch::Contains("did you mean 'smoothing_length'?"));
   CHECK_THROWS_WITH(Case().set("spacing", std::string("1")), "spacing: is not a number");
   CHECK_THROWS_WITH(Case().set("wave_vector", 1.0), "wave_vector: is not a list of numbers");

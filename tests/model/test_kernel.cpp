@@ -14,10 +14,11 @@ namespace {
 
 using Precise = boost::multiprecision::cpp_bin_float_50;
 
-/// Knots and coefficients are doubles, so a precise integral of W differs from 1 by the rounding of `normalisation` only.
+/// Knots and coefficients are doubles, so a precise integral of W differs from 1 by the rounding of `normalisation`
+/// only.
 constexpr double normalisation_tolerance = 1e-14;
-/// The differences (50 digits, step 1e-12) are exact to 1e-24. What is measured is the rounding of the double result: the
-/// powers of 2 − q of Wendland C6 are up to 70 times their sum and its curvature multiplies them by 10 · 9.
+/// The differences (50 digits, step 1e-12) are exact to 1e-24. What is measured is the rounding of the double result:
+/// the powers of 2 − q of Wendland C6 are up to 70 times their sum and its curvature multiplies them by 10 · 9.
 constexpr double derivative_tolerance = 1e-12;
 /// A few roundings of the closed integral of each term.
 constexpr double constant_tolerance = 4e-15;
@@ -76,9 +77,9 @@ void check_derivatives() {
       const Precise above = Precise(r) + step, below = Precise(r) - step;
       CHECK(std::abs(kernel.slope(r) - static_cast<double>((kernel.value(above) - kernel.value(below)) / (2 * step))) <
             derivative_tolerance * scale / kernel.smoothing_length());
-      CHECK(
-          std::abs(kernel.curvature(r) - static_cast<double>((kernel.slope(above) - kernel.slope(below)) / (2 * step))) <
-          derivative_tolerance * scale / std::pow(kernel.smoothing_length(), 2));
+      CHECK(std::abs(kernel.curvature(r) -
+                     static_cast<double>((kernel.slope(above) - kernel.slope(below)) / (2 * step))) <
+            derivative_tolerance * scale / std::pow(kernel.smoothing_length(), 2));
     }
   }
 }
@@ -112,13 +113,19 @@ TEST_CASE("kernels vanish from their support on and are flat at the origin", "[f
 TEST_CASE("the published normalisation constants come out of the table", "[fast]") {
   constexpr double pi = std::numbers::pi;
   CHECK(Kernel<1>(KernelFamily::cubic_spline, 1).normalisation() == Approx(2.0 / 3.0).epsilon(constant_tolerance));
-  CHECK(Kernel<2>(KernelFamily::cubic_spline, 1).normalisation() == Approx(10.0 / (7.0 * pi)).epsilon(constant_tolerance));
+  CHECK(Kernel<2>(KernelFamily::cubic_spline, 1).normalisation() ==
+        Approx(10.0 / (7.0 * pi)).epsilon(constant_tolerance));
   CHECK(Kernel<3>(KernelFamily::cubic_spline, 1).normalisation() == Approx(1.0 / pi).epsilon(constant_tolerance));
-  CHECK(Kernel<2>(KernelFamily::quartic_spline, 1).normalisation() == Approx(96.0 / (1199.0 * pi)).epsilon(constant_tolerance));
-  CHECK(Kernel<2>(KernelFamily::quintic_spline, 1).normalisation() == Approx(7.0 / (478.0 * pi)).epsilon(constant_tolerance));
-  CHECK(Kernel<2>(KernelFamily::wendland_c2, 1).normalisation() == Approx(7.0 / (4.0 * pi)).epsilon(constant_tolerance));
-  CHECK(Kernel<2>(KernelFamily::wendland_c4, 1).normalisation() == Approx(9.0 / (4.0 * pi)).epsilon(constant_tolerance));
-  CHECK(Kernel<2>(KernelFamily::wendland_c6, 1).normalisation() == Approx(78.0 / (28.0 * pi)).epsilon(constant_tolerance));
+  CHECK(Kernel<2>(KernelFamily::quartic_spline, 1).normalisation() ==
+        Approx(96.0 / (1199.0 * pi)).epsilon(constant_tolerance));
+  CHECK(Kernel<2>(KernelFamily::quintic_spline, 1).normalisation() ==
+        Approx(7.0 / (478.0 * pi)).epsilon(constant_tolerance));
+  CHECK(Kernel<2>(KernelFamily::wendland_c2, 1).normalisation() ==
+        Approx(7.0 / (4.0 * pi)).epsilon(constant_tolerance));
+  CHECK(Kernel<2>(KernelFamily::wendland_c4, 1).normalisation() ==
+        Approx(9.0 / (4.0 * pi)).epsilon(constant_tolerance));
+  CHECK(Kernel<2>(KernelFamily::wendland_c6, 1).normalisation() ==
+        Approx(78.0 / (28.0 * pi)).epsilon(constant_tolerance));
 }
 
 TEST_CASE("a kernel refuses a smoothing length that is not positive and finite", "[fast]") {

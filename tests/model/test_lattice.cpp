@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numbers>
 
 using namespace sphstab;
@@ -19,8 +20,8 @@ int count(LatticeKind kind, double support, NeighbourRule rule = NeighbourRule::
 }  // namespace
 
 TEST_CASE("primitive and reciprocal vectors are dual to each other", "[fast]") {
-  for (const auto& [kind, name] : Names<LatticeKind>::table) {
-    INFO(name);
+  for (const LatticeKind kind : lattices_of(2)) {
+    INFO(name_of(kind));
     const Lattice<2> lattice(kind, 0.3);
     const Tensor<2> products = lattice.primitive_vectors().transpose() * lattice.reciprocal_vectors();
     CHECK((products - 2.0 * std::numbers::pi * Tensor<2>::Identity()).norm() < rounding);
@@ -35,9 +36,9 @@ TEST_CASE("the volume of a particle is that of the cell", "[fast]") {
 
 TEST_CASE("the neighbours within a support are those of a brute-force search", "[fast]") {
   constexpr int reach = 12;
-  for (const auto& [kind, name] : Names<LatticeKind>::table)
+  for (const LatticeKind kind : lattices_of(2))
     for (const double support : {1.01, 1.3, 2.0, 2.6, 3.9, 5.05}) {
-      INFO(name << " support " << support);
+      INFO(name_of(kind) << " support " << support);
       const Lattice<2> lattice(kind, 1.0);
       const auto found = lattice_neighbours(lattice, support, NeighbourRule::support);
       int expected = 0;
@@ -70,4 +71,34 @@ TEST_CASE("a support without neighbours and a spacing that is not positive are r
   CHECK_THROWS_WITH(lattice_neighbours(Lattice<2>(LatticeKind::square, 1.0), 1.0, NeighbourRule::support),
                     Catch::StartsWith("smoothing_length: no neighbour"));
   CHECK_THROWS_WITH(Lattice<2>(LatticeKind::square, -1.0), Catch::StartsWith("spacing: -1"));
+}
+
+TEST_CASE("in one and three dimensions spacing is the distance of nearest neighbours, with the right shells",
+          "[fast]") {
+  const auto shells = [](const auto& neighbours, double distance) {
+    return std::count_if(neighbours.begin(), neighbours.end(),
+                         [&](const auto& n) { return std::abs(n.distance - distance) < rounding * 10; });
+  };
+  const auto chain = lattice_neighbours(Lattice<1>(LatticeKind::chain, 0.5), 1.2, NeighbourRule::support);
+  CHECK(chain.size() == 4);
+  CHECK(shells(chain, 0.5) == 2);
+  struct Crystal {
+    LatticeKind kind;
+    int nearest, second;
+    double second_distance, volume;
+  };
+  // Coordination numbers, second shells and atomic volumes of crystallography, in nearest-neighbour distances.
+  for (const auto& crystal : {Crystal{LatticeKind::cubic, 6, 12, std::sqrt(2.0), 1.0},
+                              Crystal{LatticeKind::bcc, 8, 6, 2.0 / std::sqrt(3.0), 4.0 / (3.0 * std::sqrt(3.0))},
+                              Crystal{LatticeKind::fcc, 12, 6, std::sqrt(2.0), 1.0 / std::sqrt(2.0)}}) {
+    INFO(name_of(crystal.kind));
+    const Lattice<3> lattice(crystal.kind, 1.0);
+    const auto neighbours = lattice_neighbours(lattice, 1.5, NeighbourRule::support);
+    CHECK(static_cast<int>(neighbours.size()) == crystal.nearest + crystal.second);
+    CHECK(shells(neighbours, 1.0) == crystal.nearest);
+    CHECK(shells(neighbours, crystal.second_distance) == crystal.second);
+    CHECK(lattice.cell_volume() == Approx(crystal.volume).epsilon(rounding));
+  }
+  CHECK_THROWS_WITH(Lattice<3>(LatticeKind::square, 1.0), "lattice: square has 2 dimensions, not 3");
+  CHECK_THROWS_WITH(Lattice<2>(LatticeKind::chain, 1.0), "lattice: chain has 1 dimension, not 2");
 }

@@ -16,7 +16,8 @@ constexpr double rounding = 2e-15;
 
 }  // namespace
 
-TEST_CASE("Zhang's data give Zhang's constants: E = 0.39 Pa, his G = 0.3 Pa, gamma of plane strain and stress", "[fast]") {
+TEST_CASE("Zhang's data give Zhang's constants: E = 0.39 Pa, his G = 0.3 Pa, gamma of plane strain and stress",
+          "[fast]") {
   const auto material = Material::from_young_modulus(1000.0, 0.39, 0.3);
   CHECK(2.0 * material.shear_modulus() == Approx(0.3).epsilon(rounding));
   CHECK(material.lame(Plane::strain).lambda == Approx(0.3 * 0.3 / 0.4).epsilon(rounding));

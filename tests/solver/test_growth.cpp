@@ -39,7 +39,8 @@ TEST_CASE("growth too slow for the run counts as bounded, and the smallest detec
 
 TEST_CASE("linear drift of a defective mode is never growth, whatever it starts from", "[fast]") {
   for (const double start : {0.0, 1e-6, 1e-3, 1.0, 100.0, -700.3})
-    for (const double rate : {1e-3, 1.0}) CHECK(judge(steps, [=](double n) { return start + rate * (n + 0.5); }).trend != Trend::growing);
+    for (const double rate : {1e-3, 1.0})
+      CHECK(judge(steps, [=](double n) { return start + rate * (n + 0.5); }).trend != Trend::growing);
 }
 
 TEST_CASE("beating below the limit is no growth at any phase and period", "[fast]") {

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
 using namespace sphstab;
@@ -48,7 +50,8 @@ TEST_CASE("the root of growth squared needs far fewer runs than halving", "[fast
   CHECK(found.runs <= 12);
 }
 
-TEST_CASE("an eigenvalue that crosses the circle alone is found too, with as long a horizon as its growth needs", "[fast]") {
+TEST_CASE("an eigenvalue that crosses the circle alone is found too, with as long a horizon as its growth needs",
+          "[fast]") {
   // e^g solves (e^g − 1)(e^g − 1 + a) = 8δ, as for leapfrog with damping: linear near the limit, a square root beyond.
   for (const double damping : {1e-3, 1e-2, 0.3}) {
     INFO("damping " << damping);
@@ -74,6 +77,62 @@ TEST_CASE("a law that is no square root is bracketed all the same", "[fast]") {
   CHECK(found.high >= 1.0);
 }
 
+TEST_CASE("whatever the law of growth and the horizon, the bracket holds the root, or there is none", "[fast]") {
+  struct Law {
+    const char* name;
+    double (*growth)(double time_step);
+  };
+  const Law laws[] = {{"linear, slow", [](double t) { return 0.1 * (t - 1.0); }},
+                      {"linear, fast", [](double t) { return 10.0 * (t - 1.0); }},
+                      {"quadratic", [](double t) { return t < 1.0 ? 0.0 : (t - 1.0) * (t - 1.0); }},
+                      {"square root", [](double t) { return t < 1.0 ? 0.0 : 2.0 * std::acosh(t); }},
+                      {"foot", [](double t) { return t < 1.0   ? 0.0
+                                                     : t < 2.0 ? 0.002
+                                                               : 1.0; }}};
+  for (const auto& [name, growth] : laws)
+    for (const double width : {1e-3, 1e-6})
+      for (const std::optional<long> horizon :
+           {std::optional<long>(), std::optional<long>(300), std::optional<long>(3000)}) {
+        INFO(name << ", tolerance " << width << ", horizon " << horizon.value_or(0));
+        const auto found = study::bisect(growth_law(growth), {.start = 0.2, .tolerance = width, .horizon = horizon});
+        if (!found.critical_time_step) continue;
+        CHECK(found.low <= *found.critical_time_step);
+        CHECK(*found.critical_time_step <= found.high);
+        // No run can tell a step at which growth is below what it can see; beyond that the bracket must hold the root.
+        CHECK(growth(found.low) <= found.smallest_detectable);
+        CHECK(growth(found.high) > 0.0);
+      }
+}
+
+TEST_CASE("a horizon too short for the tolerance widens the bracket instead of losing the root", "[fast]") {
+  // Linear growth of 0.1 (Δt − 1): 3000 steps see 1e-3, which it has at 1.01 only.
+  const auto slow = [](double time_step) { return 0.1 * (time_step - 1.0); };
+  const auto found = study::bisect(growth_law(slow), {.start = 0.2, .tolerance = tolerance, .horizon = 3000});
+  REQUIRE(found.critical_time_step);
+  CHECK(found.low <= 1.0);
+  CHECK(found.high >= 1.0);
+  // x = 2 sinh(g/2) of the fit is g to third order, and g is below 0.02 where it is fitted.
+  CHECK(*found.critical_time_step == Approx(1.0).epsilon(1e-4));
+}
+
+TEST_CASE("a state that grows at every step has no critical step, however slowly it grows", "[fast]") {
+  for (const double rate : {1e-3, 0.1, 3.0}) {
+    INFO("rate " << rate);
+    const study::GrowthProbe probe = [rate](double time_step, long horizon) {
+      const double smallest = 3.0 / static_cast<double>(horizon), growth = rate * time_step;
+      return GrowthFit{growth < smallest ? Trend::bounded : Trend::growing, growth, smallest, 0.0, horizon};
+    };
+    CHECK_FALSE(study::bisect(probe, {.start = 1.0, .tolerance = tolerance}).critical_time_step);
+  }
+}
+
+TEST_CASE("progress of a search is a fraction, also before it has two ends", "[fast]") {
+  CHECK(study::closed_fraction(0.0, 1.0, 1e-6) == 0.0);
+  CHECK(study::closed_fraction(1.0, std::numeric_limits<double>::infinity(), 1e-6) == 0.0);
+  CHECK(study::closed_fraction(1.0 - 1e-3, 1.0, 1e-6) == Approx(0.5));
+  CHECK(study::closed_fraction(1.0, 1.0, 1e-6) == 1.0);
+}
+
 TEST_CASE("growth that the short scan overlooks is found by the full horizon", "[fast]") {
   // 0.005 a step between 0.5 and 1: 200 steps of the scan see 3/200 = 0.015 and more only.
   const auto foot = [](double time_step) { return time_step < 0.5 ? 0.0 : time_step < 1.0 ? 0.005 : 1.0; };
@@ -83,7 +142,9 @@ TEST_CASE("growth that the short scan overlooks is found by the full horizon", "
 }
 
 TEST_CASE("the first exit is reported where a second stable window follows", "[fast]") {
-  const auto window = [](double time_step) { return time_step < 1.0 || (time_step > 2.0 && time_step < 3.0) ? 0.0 : 0.5; };
+  const auto window = [](double time_step) {
+    return time_step < 1.0 || (time_step > 2.0 && time_step < 3.0) ? 0.0 : 0.5;
+  };
   const auto found = study::bisect(growth_law(window), {.start = 0.2, .tolerance = 1e-4});
   REQUIRE(found.critical_time_step);
   CHECK(*found.critical_time_step == Approx(1.0).epsilon(1e-4));
