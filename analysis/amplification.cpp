@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/amplification.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <string_view>
@@ -83,11 +82,6 @@ ModeSpectrum mode_spectrum(const Problem<Dim>& problem, const Vector<Dim>& wave_
   add_branch(form.longitudinal(D));
   for (int branch = 1; branch < Dim; ++branch) add_branch(form.transverse(D));
   return spectrum;
-}
-
-std::vector<std::complex<double>> numerical_eigenvalues(const ComplexMatrix& matrix) {
-  const Eigen::VectorXcd eigenvalues = matrix.eigenvalues();
-  return {eigenvalues.begin(), eigenvalues.end()};
 }
 
 template std::vector<std::string> state_names(const Problem<1>&);

@@ -38,9 +38,6 @@ struct ModeSpectrum {
 template <int Dim>
 ModeSpectrum mode_spectrum(const Problem<Dim>& problem, const Vector<Dim>& wave_vector, double time_step);
 
-/// Eigenvalues of a matrix by Eigen's dense solver, the oracle of the closed form; order unspecified.
-std::vector<std::complex<double>> numerical_eigenvalues(const ComplexMatrix& matrix);
-
 extern template std::vector<std::string> state_names(const Problem<1>&);
 extern template Tensor<1> dynamical_matrix(const Problem<1>&, const Vector<1>&);
 extern template ComplexMatrix amplification_matrix(const Problem<1>&, const Vector<1>&, double);

@@ -12,37 +12,15 @@
 
 #include "analysis/acoustic_form.hpp"
 #include "analysis/gradient_symbol.hpp"
-#include "analysis/mode_step.hpp"
 #include "analysis/zone_maximum.hpp"
 #include "analysis/zone_zeros.hpp"
+#include "model/lattice_index.hpp"
 
 namespace sphstab::analysis {
 namespace {
 
 /// The roundings of the factors between ω² and Δt.
 constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
-
-/// An extreme ω² over a set of modes, within [lower, upper].
-template <int Dim>
-struct ExtremeMode {
-  Vector<Dim> wave_vector;
-  Branch branch;
-  double omega_squared;
-  double lower;
-  double upper;
-};
-
-/// `lowest` is a mode without restoring force unless one is unstable.
-template <int Dim>
-struct FrequencyRange {
-  ExtremeMode<Dim> lowest;
-  ExtremeMode<Dim> highest;
-};
-
-template <int Dim>
-ExtremeMode<Dim> mode_at_rest() {
-  return {Vector<Dim>::Zero(), Branch::longitudinal, 0.0, 0.0, 0.0};
-}
 
 /// Every index from 0 to counts − 1 on each axis.
 template <int Dim>
@@ -51,11 +29,7 @@ std::vector<LatticeIndex<Dim>> indices_below(std::string_view key, const Lattice
     throw InvalidInput(
         fmt::format("{}: {} has a count below 1", key, fmt::join(counts.data(), counts.data() + Dim, ",")));
   std::vector<LatticeIndex<Dim>> indices;
-  for (int flat = 0; flat < counts.prod(); ++flat) {
-    LatticeIndex<Dim> n;
-    for (int axis = 0, rest = flat; axis < Dim; rest /= counts[axis], ++axis) n[axis] = rest % counts[axis];
-    indices.push_back(n);
-  }
+  for_each_index<Dim>(LatticeIndex<Dim>::Zero(), counts.array() - 1, [&](const auto& n) { indices.push_back(n); });
   return indices;
 }
 
@@ -67,49 +41,28 @@ template <int Dim>
 Vector<Dim> in_first_zone(const Tensor<Dim>& reciprocal, const Vector<Dim>& wave_vector) {
   const double tolerance = same_component * reciprocal.norm();
   // Shifts by up to two reciprocal vectors reach the Wigner-Seitz cell from [−½, ½) b_i of any lattice kind.
-  const LatticeIndex<Dim> shifts = LatticeIndex<Dim>::Constant(5);
+  const LatticeIndex<Dim> shifts = LatticeIndex<Dim>::Constant(2);
   Vector<Dim> best = wave_vector;
-  for (const auto& n : indices_below<Dim>("", shifts)) {
-    const Vector<Dim> k = wave_vector + reciprocal * (n.template cast<double>().array() - 2.0).matrix();
+  for_each_index<Dim>(-shifts, shifts, [&](const LatticeIndex<Dim>& n) {
+    const Vector<Dim> k = wave_vector + reciprocal * n.template cast<double>();
     double preference = best.norm() - k.norm();
     for (int axis = 0; axis < Dim && std::abs(preference) <= tolerance; ++axis) preference = k[axis] - best[axis];
     if (preference > tolerance) best = k;
-  }
+  });
   return best;
 }
 
 template <int Dim>
-FrequencyRange<Dim> range_over_zone(const Problem<Dim>& problem) {
-  const GradientSymbol<Dim> symbol(problem);
-  const AcousticForm<Dim> form(problem, symbol.consistency());
-  const Tensor<Dim> Q = form.longitudinal();
-  const Vector<Dim> q = Q.template selfadjointView<Eigen::Lower>().eigenvalues();
-
-  FrequencyRange<Dim> range{mode_at_rest<Dim>(), mode_at_rest<Dim>()};
-  const auto raise = [&](Branch branch, const Tensor<Dim>& of_branch) {
-    const auto found = zone_maximum(symbol.series(), of_branch);
-    auto& highest = range.highest;
-    highest.lower = std::max(highest.lower, found.lower);
-    highest.upper = std::max(highest.upper, found.upper);
-    if (found.value <= highest.omega_squared) return;
-    highest.omega_squared = found.value;
-    highest.branch = branch;
-    highest.wave_vector = in_first_zone<Dim>(problem.lattice.reciprocal_vectors(), symbol.wave_vector(found.phases));
-  };
-  if (q.maxCoeff() >= form.shear) raise(Branch::longitudinal, Q);
-  if (Dim > 1 && q.minCoeff() < form.shear) raise(Branch::transverse, form.shear * Tensor<Dim>::Identity());
-  if (q.minCoeff() < 0.0)
-    if (const auto found = zone_maximum<Dim>(symbol.series(), -Q); found.lower > 0.0)
-      range.lowest = {in_first_zone<Dim>(problem.lattice.reciprocal_vectors(), symbol.wave_vector(found.phases)),
-                      Branch::longitudinal, -found.value, -found.upper, -found.lower};
-  return range;
+ZoneMaximum<Dim> scaled(ZoneMaximum<Dim> maximum, double factor) {
+  for (double* const value : {&maximum.value, &maximum.lower, &maximum.upper}) *value *= factor;
+  return maximum;
 }
 
 template <int Dim>
 FrequencyRange<Dim> range_over(const Problem<Dim>& problem, const std::vector<Vector<Dim>>& wave_vectors) {
   const GradientSymbol<Dim> symbol(problem);
   const AcousticForm<Dim> form(problem, symbol.consistency());
-  FrequencyRange<Dim> range{mode_at_rest<Dim>(), mode_at_rest<Dim>()};
+  FrequencyRange<Dim> range;
   range.highest.wave_vector = wave_vectors.front();
   for (const auto& k : wave_vectors) {
     const Vector<Dim> D = symbol.cleaned(k);
@@ -128,21 +81,16 @@ FrequencyRange<Dim> range_over(const Problem<Dim>& problem, const std::vector<Ve
 }
 
 template <int Dim>
-ModeStep step_of(const Problem<Dim>& problem, double omega_squared) {
-  return {problem.integrator, problem.scheme.damping, omega_squared};
-}
-
-template <int Dim>
-StepLimit<Dim> limit_of(const Problem<Dim>& problem, const FrequencyRange<Dim>& range) {
+StepLimit<Dim> limit_of(const FrequencyRange<Dim>& range, const ModeSteps& step_of) {
   const auto& [lowest, highest] = range;
   if (lowest.omega_squared < 0.0) {
-    const double rate = step_of(problem, lowest.omega_squared).continuous_growth_rate();
+    const double rate = step_of(lowest.omega_squared).continuous_growth_rate();
     return NeverStable<Dim>{rate, {lowest.wave_vector, lowest.branch, std::sqrt(-lowest.omega_squared)}};
   }
-  const auto limit = step_of(problem, highest.omega_squared).limit();
+  const auto limit = step_of(highest.omega_squared).limit();
   if (!limit) return UnconditionallyStable{};
-  const Bracket bracket{*step_of(problem, highest.upper).limit() * (1.0 - few_roundings),
-                        *step_of(problem, highest.lower).limit() * (1.0 + few_roundings)};
+  const Bracket bracket{*step_of(highest.upper).limit() * (1.0 - few_roundings),
+                        *step_of(highest.lower).limit() * (1.0 + few_roundings)};
   return ConditionallyStable<Dim>{
       *limit, bracket, {highest.wave_vector, highest.branch, std::sqrt(highest.omega_squared)}};
 }
@@ -150,13 +98,59 @@ StepLimit<Dim> limit_of(const Problem<Dim>& problem, const FrequencyRange<Dim>& 
 }  // namespace
 
 template <int Dim>
-StepLimit<Dim> bulk_limit(const Problem<Dim>& problem) {
-  return limit_of(problem, range_over_zone(problem));
+BulkModes<Dim>::BulkModes(const Problem<Dim>& problem) : steps_(problem) {
+  const GradientSymbol<Dim> symbol(problem);
+  const AcousticForm<Dim> form(problem, symbol.consistency());
+  const Tensor<Dim> Q = form.longitudinal();
+  const Vector<Dim> q = Q.template selfadjointView<Eigen::Lower>().eigenvalues();
+  const auto of_symbol = zone_maximum<Dim>(symbol.series(), Tensor<Dim>::Identity());
+  symbol_maximum_ = std::sqrt(of_symbol.value);
+
+  const auto maximum = [&](const Tensor<Dim>& of_form) {
+    const bool isotropic = of_form == of_form(0, 0) * Tensor<Dim>::Identity() && of_form(0, 0) > 0.0;
+    return isotropic ? scaled(of_symbol, of_form(0, 0)) : zone_maximum(symbol.series(), of_form);
+  };
+  const auto wave_vector = [&](const ZoneMaximum<Dim>& found) {
+    return in_first_zone<Dim>(problem.lattice.reciprocal_vectors(), symbol.wave_vector(found.phases));
+  };
+  const auto raise = [&](Branch branch, const ZoneMaximum<Dim>& found) {
+    const ExtremeMode<Dim> before = range_.highest;
+    if (found.value > before.omega_squared) range_.highest = {wave_vector(found), branch, found.value, 0.0, 0.0};
+    range_.highest.lower = std::max(before.lower, found.lower);
+    range_.highest.upper = std::max(before.upper, found.upper);
+  };
+  if (q.maxCoeff() >= form.shear) raise(Branch::longitudinal, maximum(Q));
+  if (Dim > 1 && q.minCoeff() < form.shear) raise(Branch::transverse, maximum(form.shear * Tensor<Dim>::Identity()));
+  if (q.minCoeff() < 0.0)
+    if (const auto found = zone_maximum<Dim>(symbol.series(), -Q); found.lower > 0.0)
+      range_.lowest = {wave_vector(found), Branch::longitudinal, -found.value, -found.upper, -found.lower};
+}
+
+template <int Dim>
+StepLimit<Dim> BulkModes<Dim>::limit() const {
+  return limit_of(range_, steps_);
+}
+
+template <int Dim>
+double BulkModes<Dim>::spectral_radius(double time_step) const {
+  return std::max(steps_(range_.lowest.omega_squared).spectral_radius(time_step),
+                  steps_(range_.highest.omega_squared).spectral_radius(time_step));
+}
+
+template <int Dim>
+std::optional<double> BulkModes<Dim>::step_for_growth(double growth_per_step) const {
+  if (!(growth_per_step >= 0.0))
+    throw InvalidInput(fmt::format("tolerated_growth_per_step: {} is negative", growth_per_step));
+  if (range_.lowest.omega_squared < 0.0 && growth_per_step == 0.0) return std::nullopt;
+  const auto of_lowest = steps_(range_.lowest.omega_squared).limit(growth_per_step);
+  const auto of_highest = steps_(range_.highest.omega_squared).limit(growth_per_step);
+  if (of_lowest && of_highest) return std::min(*of_lowest, *of_highest);
+  return of_lowest ? of_lowest : of_highest;
 }
 
 template <int Dim>
 StepLimit<Dim> mode_limit(const Problem<Dim>& problem, const Vector<Dim>& wave_vector) {
-  return limit_of(problem, range_over<Dim>(problem, {wave_vector}));
+  return limit_of<Dim>(range_over<Dim>(problem, {wave_vector}), ModeSteps(problem));
 }
 
 template <int Dim>
@@ -165,7 +159,7 @@ StepLimit<Dim> paper_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>&
   for (const auto& n : indices_below<Dim>("box", box))
     modes.push_back(std::numbers::pi / problem.lattice.spacing() *
                     ((n.array() + 1).template cast<double>() / box.array().template cast<double>()).matrix());
-  return limit_of(problem, range_over(problem, modes));
+  return limit_of<Dim>(range_over(problem, modes), ModeSteps(problem));
 }
 
 template <int Dim>
@@ -174,34 +168,7 @@ StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>&
   for (const auto& n : indices_below<Dim>("patch", cells))
     modes.push_back(problem.lattice.reciprocal_vectors() *
                     (n.array().template cast<double>() / cells.array().template cast<double>()).matrix());
-  return limit_of(problem, range_over(problem, modes));
-}
-
-template <int Dim>
-double symbol_maximum(const Problem<Dim>& problem) {
-  return std::sqrt(zone_maximum<Dim>(GradientSymbol<Dim>(problem).series(), Tensor<Dim>::Identity()).value);
-}
-
-// At a fixed Δt the trace of a mode is linear in ω² and its determinant does not depend on it, so that the spectral
-// radius is largest at one of the two ends of the range of ω².
-
-template <int Dim>
-double zone_spectral_radius(const Problem<Dim>& problem, double time_step) {
-  const auto [lowest, highest] = range_over_zone(problem);
-  return std::max(step_of(problem, lowest.omega_squared).spectral_radius(time_step),
-                  step_of(problem, highest.omega_squared).spectral_radius(time_step));
-}
-
-template <int Dim>
-std::optional<double> step_for_growth(const Problem<Dim>& problem, double growth_per_step) {
-  if (!(growth_per_step >= 0.0))
-    throw InvalidInput(fmt::format("tolerated_growth_per_step: {} is negative", growth_per_step));
-  const auto [lowest, highest] = range_over_zone(problem);
-  if (lowest.omega_squared < 0.0 && growth_per_step == 0.0) return std::nullopt;
-  const auto of_lowest = step_of(problem, lowest.omega_squared).limit(growth_per_step);
-  const auto of_highest = step_of(problem, highest.omega_squared).limit(growth_per_step);
-  if (of_lowest && of_highest) return std::min(*of_lowest, *of_highest);
-  return of_lowest ? of_lowest : of_highest;
+  return limit_of<Dim>(range_over(problem, modes), ModeSteps(problem));
 }
 
 template <int Dim>
@@ -231,31 +198,22 @@ ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem) {
   return modes;
 }
 
-template StepLimit<1> bulk_limit(const Problem<1>&);
+template class BulkModes<1>;
 template StepLimit<1> mode_limit(const Problem<1>&, const Vector<1>&);
 template StepLimit<1> paper_limit(const Problem<1>&, const LatticeIndex<1>&);
 template StepLimit<1> patch_limit(const Problem<1>&, const LatticeIndex<1>&);
-template double symbol_maximum(const Problem<1>&);
-template double zone_spectral_radius(const Problem<1>&, double);
-template std::optional<double> step_for_growth(const Problem<1>&, double);
 template std::optional<double> published_bound(const Problem<1>&);
 template ZeroEnergyModes<1> zero_energy_modes(const Problem<1>&);
-template StepLimit<2> bulk_limit(const Problem<2>&);
+template class BulkModes<2>;
 template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
 template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
 template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
-template double symbol_maximum(const Problem<2>&);
-template double zone_spectral_radius(const Problem<2>&, double);
-template std::optional<double> step_for_growth(const Problem<2>&, double);
 template std::optional<double> published_bound(const Problem<2>&);
 template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
-template StepLimit<3> bulk_limit(const Problem<3>&);
+template class BulkModes<3>;
 template StepLimit<3> mode_limit(const Problem<3>&, const Vector<3>&);
 template StepLimit<3> paper_limit(const Problem<3>&, const LatticeIndex<3>&);
 template StepLimit<3> patch_limit(const Problem<3>&, const LatticeIndex<3>&);
-template double symbol_maximum(const Problem<3>&);
-template double zone_spectral_radius(const Problem<3>&, double);
-template std::optional<double> step_for_growth(const Problem<3>&, double);
 template std::optional<double> published_bound(const Problem<3>&);
 template ZeroEnergyModes<3> zero_energy_modes(const Problem<3>&);
 

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/mode_step.hpp"
 #include "model/problem.hpp"
 
 namespace sphstab::analysis {
@@ -46,9 +47,63 @@ struct NeverStable {
 template <int Dim>
 using StepLimit = std::variant<ConditionallyStable<Dim>, UnconditionallyStable, NeverStable<Dim>>;
 
-/// The exact limit of the infinite lattice: the maximum over the whole Brillouin zone, with certified bracket.
+/// An extreme ω² over a set of modes, within [lower, upper].
 template <int Dim>
-StepLimit<Dim> bulk_limit(const Problem<Dim>& problem);
+struct ExtremeMode {
+  Vector<Dim> wave_vector = Vector<Dim>::Zero();
+  Branch branch = Branch::longitudinal;
+  double omega_squared = 0.0;
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+/// `lowest` is a mode without restoring force unless one is unstable.
+template <int Dim>
+struct FrequencyRange {
+  ExtremeMode<Dim> lowest;
+  ExtremeMode<Dim> highest;
+};
+
+/// The step of a mode of any ω² by the integrator and the damping of a problem.
+class ModeSteps {
+ public:
+  template <int Dim>
+  explicit ModeSteps(const Problem<Dim>& problem) : integrator_(problem.integrator), damping_(problem.scheme.damping) {}
+
+  ModeStep operator()(double omega_squared) const { return {integrator_, damping_, omega_squared}; }
+
+ private:
+  Integrator integrator_;
+  std::optional<Damping> damping_;
+};
+
+/// The infinite lattice: its extreme frequencies over the whole Brillouin zone, found once with certified bounds, and
+/// what follows from them for any step.
+template <int Dim>
+class BulkModes {
+ public:
+  explicit BulkModes(const Problem<Dim>& problem);
+
+  /// The exact critical time step.
+  StepLimit<Dim> limit() const;
+
+  /// max |D(k)| over the zone, 1 / length (`symbol_maximum`), kernel normalisation included.
+  double symbol_maximum() const { return symbol_maximum_; }
+
+  /// Largest spectral radius of E over the zone at this step. At a fixed Δt the trace of a mode is linear in ω² and its
+  /// determinant does not depend on it, so that one of the two ends of the range of ω² has it.
+  double spectral_radius(double time_step) const;
+
+  /// The largest Δt such that no smaller one has a spectral radius over the zone above 1 + growth_per_step. Nothing
+  /// where every Δt qualifies, or none does (`never-stable`, growth_per_step = 0). Throws InvalidInput
+  /// (`tolerated_growth_per_step`) if negative.
+  std::optional<double> step_for_growth(double growth_per_step) const;
+
+ private:
+  ModeSteps steps_;
+  FrequencyRange<Dim> range_;
+  double symbol_maximum_;
+};
 
 /// The limit of one mode.
 template <int Dim>
@@ -62,20 +117,6 @@ StepLimit<Dim> paper_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>&
 /// The limit over the wave vectors that a periodic patch admits: k·(N_i a_i) = 2πn_i.
 template <int Dim>
 StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
-
-/// max |D(k)| over the zone, 1 / length (`symbol_maximum`), kernel normalisation included.
-template <int Dim>
-double symbol_maximum(const Problem<Dim>& problem);
-
-/// Largest spectral radius of E over the whole zone at this step.
-template <int Dim>
-double zone_spectral_radius(const Problem<Dim>& problem, double time_step);
-
-/// The largest Δt such that no smaller one has a spectral radius over the zone above 1 + growth_per_step. Nothing where
-/// every Δt qualifies, or none does (`never-stable`, growth_per_step = 0). Throws InvalidInput
-/// (`tolerated_growth_per_step`) if negative.
-template <int Dim>
-std::optional<double> step_for_growth(const Problem<Dim>& problem, double growth_per_step);
 
 /// Zhang's Eq. 15, Δt = ρ/|mW'(Δ)| √(ρ/(2γ+3G)): sufficient for four neighbours, printed for every kernel (errata.md
 /// Z4, Z5). Nothing where W'(Δp) = 0 or the lattice is not square.
@@ -94,31 +135,22 @@ struct ZeroEnergyModes {
 template <int Dim>
 ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem);
 
-extern template StepLimit<1> bulk_limit(const Problem<1>&);
+extern template class BulkModes<1>;
 extern template StepLimit<1> mode_limit(const Problem<1>&, const Vector<1>&);
 extern template StepLimit<1> paper_limit(const Problem<1>&, const LatticeIndex<1>&);
 extern template StepLimit<1> patch_limit(const Problem<1>&, const LatticeIndex<1>&);
-extern template double symbol_maximum(const Problem<1>&);
-extern template double zone_spectral_radius(const Problem<1>&, double);
-extern template std::optional<double> step_for_growth(const Problem<1>&, double);
 extern template std::optional<double> published_bound(const Problem<1>&);
 extern template ZeroEnergyModes<1> zero_energy_modes(const Problem<1>&);
-extern template StepLimit<2> bulk_limit(const Problem<2>&);
+extern template class BulkModes<2>;
 extern template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
 extern template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
 extern template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
-extern template double symbol_maximum(const Problem<2>&);
-extern template double zone_spectral_radius(const Problem<2>&, double);
-extern template std::optional<double> step_for_growth(const Problem<2>&, double);
 extern template std::optional<double> published_bound(const Problem<2>&);
 extern template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
-extern template StepLimit<3> bulk_limit(const Problem<3>&);
+extern template class BulkModes<3>;
 extern template StepLimit<3> mode_limit(const Problem<3>&, const Vector<3>&);
 extern template StepLimit<3> paper_limit(const Problem<3>&, const LatticeIndex<3>&);
 extern template StepLimit<3> patch_limit(const Problem<3>&, const LatticeIndex<3>&);
-extern template double symbol_maximum(const Problem<3>&);
-extern template double zone_spectral_radius(const Problem<3>&, double);
-extern template std::optional<double> step_for_growth(const Problem<3>&, double);
 extern template std::optional<double> published_bound(const Problem<3>&);
 extern template ZeroEnergyModes<3> zero_energy_modes(const Problem<3>&);
 

@@ -32,7 +32,7 @@ Json answer_line(Json line, Json& id) {
   for (const char* name : not_keys) line.erase(name);
   Case input;
   io::set_from_json(input, line);
-  return command.answer(input, nullptr);
+  return command.answer(input, {});
 }
 
 Json answer_text(const std::string& text) {

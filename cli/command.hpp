@@ -21,7 +21,7 @@ struct CaseCommand {
   std::string_view name;
   std::string_view summary;
   std::vector<KeyGroup> groups;  ///< whose keys it offers as flags
-  Json (*answer)(const Case& input, const study::Progress& progress);
+  Json (*answer)(const Case& input, const study::Request& request);
   std::string (*describe)(const Json& answer);  ///< for people; absent for commands of `batch` alone
   bool (*holds)(const Json& answer) = nullptr;  ///< whether the claim that it checks holds; absent: it checks none
 };

@@ -31,7 +31,7 @@ void check_format(const std::string& format) {
 int run_case_command(const CaseCommand& command, const Case& input, const std::string& format) {
   check_format(format);
   io::Progress bar{std::string(command.name)};
-  const Json answer = command.answer(input, [&](double fraction) { bar.show(fraction); });
+  const Json answer = command.answer(input, {.progress = [&](double fraction) { bar.show(fraction); }});
   print(answer, format, command.describe);
   return command.holds == nullptr || command.holds(answer) ? ExitStatus::done : ExitStatus::claim_fails;
 }

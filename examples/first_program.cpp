@@ -14,7 +14,7 @@ int main() {
                      .kernel = Kernel<2>(KernelFamily::wendland_c2, 1.5 * spacing),
                      .material = Material::from_young_modulus(7800.0, 210e9, 0.3)};  // steel, SI units
 
-  const auto limit = analysis::bulk_limit(problem);
+  const auto limit = analysis::BulkModes(problem).limit();
   const auto* stable = std::get_if<analysis::ConditionallyStable<2>>(&limit);
   if (stable == nullptr) return 1;
   std::printf("infinite lattice:        %.6e s, between %.17g and %.17g\n", stable->critical_time_step,

@@ -6,6 +6,8 @@
 
 #include <string_view>
 
+#include "model/lattice_index.hpp"
+
 namespace sphstab {
 namespace {
 
@@ -25,12 +27,10 @@ Body<Dim> block_of_lattice(const Problem<Dim>& problem, const LatticeIndex<Dim>&
 
   Body<Dim> body;
   body.volume.assign(size, problem.lattice.cell_volume());
-  for (int a = 0; a < size; ++a) {
-    LatticeIndex<Dim> n;
-    for (int axis = 0, rest = a; axis < Dim; rest /= counts[axis], ++axis) n[axis] = rest % counts[axis];
+  for_each_index<Dim>(LatticeIndex<Dim>::Zero(), counts.array() - 1, [&](const LatticeIndex<Dim>& n) {
     body.site.push_back(n);
     body.position.push_back(problem.lattice.site(n));
-  }
+  });
   body.pairs.first.push_back(0);
   for (int a = 0; a < size; ++a) {
     for (const auto& offset : neighbours) {

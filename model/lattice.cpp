@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/lattice_index.hpp"
+
 namespace sphstab {
 namespace {
 
@@ -39,19 +41,6 @@ Eigen::MatrixXd unit_primitive_vectors(LatticeKind kind) {
 
 /// Sites that a search for neighbours may look at; more than a million neighbours are a mistake.
 constexpr double largest_search = 4e6;
-
-/// Calls visit(n) for every index with |n_i| ≤ reach_i.
-template <int Dim, class Visit>
-void for_each_index(const LatticeIndex<Dim>& reach, const Visit& visit) {
-  LatticeIndex<Dim> n = -reach;
-  for (;;) {
-    visit(n);
-    int axis = 0;
-    while (axis < Dim && n[axis] == reach[axis]) n[axis] = -reach[axis], ++axis;
-    if (axis == Dim) return;
-    ++n[axis];
-  }
-}
 
 template <int Dim>
 bool before(const LatticeNeighbour<Dim>& left, const LatticeNeighbour<Dim>& right) {
@@ -94,7 +83,7 @@ std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattic
                                    support, support / lattice.spacing()));
   const LatticeIndex<Dim> reach = bounds.array().floor().template cast<int>();
   std::vector<LatticeNeighbour<Dim>> neighbours;
-  for_each_index<Dim>(reach, [&](const LatticeIndex<Dim>& n) {
+  for_each_index<Dim>(-reach, reach, [&](const LatticeIndex<Dim>& n) {
     if (n.isZero()) return;
     const Vector<Dim> position = lattice.site(n);
     const double distance = position.norm();

@@ -29,6 +29,9 @@ inline constexpr double smallest_e_foldings = 1.0;
 /// above all of its first third: a beat (sin θn) has slopes that fall, or returns to a height where it has been.
 inline constexpr double slope_agreement = 0.2;
 
+/// No run, ours or a foreign one, is judged by fewer amplitudes.
+inline constexpr long fewest_amplitudes = 12;
+
 /// Judges ln(amplitude), one value every `stride` steps, the first at step 0: least-squares slopes over the second and
 /// the last third. The amplitude is the square root of the strain energy of the perturbation: rigid motion and
 /// zero-energy modes, which drift linearly in time, have none. Non-finite values must have been cut off. Needs at least

@@ -11,6 +11,7 @@
 #include "analysis/critical_step.hpp"
 #include "analysis/lattice_sums.hpp"
 #include "study/foreign_solver.hpp"
+#include "study/json_values.hpp"
 #include "study/rules_of_thumb.hpp"
 #include "study/step_comparison.hpp"
 
@@ -19,50 +20,6 @@ namespace {
 
 constexpr const char* bulk_note =
     "bulk value of an infinite lattice: free, renormalised edges can need 0.6 of it and irregular particles 0.85";
-
-template <class... Handlers>
-struct Overloaded : Handlers... {
-  using Handlers::operator()...;
-};
-template <class... Handlers>
-Overloaded(Handlers...) -> Overloaded<Handlers...>;
-
-/// Calls `answer` with the dimension as a compile-time constant: the one place where a run-time dimension becomes one.
-template <class Answer>
-Json in_dimension(const Case& input, const Answer& answer) {
-  switch (input.dimension()) {
-    case 1:
-      return answer(std::integral_constant<int, 1>());
-    case 2:
-      return answer(std::integral_constant<int, 2>());
-    default:
-      return answer(std::integral_constant<int, 3>());
-  }
-}
-
-template <int Rows>
-Json components(const Vector<Rows>& vector) {
-  return std::vector<double>(vector.data(), vector.data() + Rows);
-}
-
-template <int Dim>
-Json rows(const Tensor<Dim>& tensor) {
-  Json list = Json::array();
-  for (int i = 0; i < Dim; ++i) list.push_back(components<Dim>(tensor.row(i)));
-  return list;
-}
-
-Json to_json(std::complex<double> value) { return {value.real(), value.imag()}; }
-
-Json to_json(const analysis::ComplexMatrix& matrix) {
-  Json rows = Json::array();
-  for (int i = 0; i < matrix.rows(); ++i) {
-    Json row = Json::array();
-    for (int j = 0; j < matrix.cols(); ++j) row.push_back(to_json(matrix(i, j)));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
 
 template <int Dim>
 Json to_json(const analysis::CriticalMode<Dim>& mode) {
@@ -111,7 +68,7 @@ Json equivalents(const Problem<Dim>& problem, double critical_time_step) {
     const double factor = critical_time_step / rule.unit;
     if (!std::isfinite(factor)) continue;  // an infinite bulk modulus leaves no step
     Json row{{"rule", rule.rule}, {"formula", rule.formula}, {"factor_at_limit", factor}};
-    row["default"] = rule.default_factor ? Json(*rule.default_factor) : Json();
+    row["default"] = number_or_null(rule.default_factor);
     row["default_is_safe"] = rule.default_factor ? Json(*rule.default_factor <= factor) : Json();
     rows.push_back(std::move(row));
   }
@@ -139,14 +96,15 @@ std::optional<double> tolerated_growth(const Case& input) {
 }
 
 template <int Dim>
-Json time_step_answer(const Case& input) {
+Json time_step_answer(const Case& input, const Request& request) {
   const auto problem = make_problem<Dim>(input);
-  Json answer = to_json<Dim>(analysis::bulk_limit(problem));
+  const analysis::BulkModes<Dim> modes(problem);
+  Json answer = to_json<Dim>(modes.limit());
   require_sound(answer);
   const Json step = answer["critical_time_step"];
   answer["bulk_only"] = true;
   answer["note"] = bulk_note;
-  answer["symbol_maximum"] = analysis::symbol_maximum(problem);
+  answer["symbol_maximum"] = modes.symbol_maximum();
   if (step.is_number()) {
     const double p_wave_speed =
         std::sqrt(problem.material.lame(problem.plane).p_wave_modulus() / problem.material.density());
@@ -161,17 +119,17 @@ Json time_step_answer(const Case& input) {
     answer["mode_limit"] = to_json<Dim>(analysis::mode_limit(problem, make_wave_vector<Dim>(input)));
   if (const auto box = make_size<Dim>(input, "box"); box && !input.has("mode"))
     answer["box_limit"] = to_json<Dim>(analysis::paper_limit(problem, *box));
-  if (const auto growth = tolerated_growth(input)) {
-    const auto tolerable = analysis::step_for_growth(problem, *growth);
-    answer["time_step_for_tolerance"] = tolerable ? Json(*tolerable) : Json();
-  }
+  if (const auto growth = tolerated_growth(input))
+    answer["time_step_for_tolerance"] = number_or_null(modes.step_for_growth(*growth));
   if (const auto time_step = input.number("time_step"))
-    answer["spectral_radius_at_time_step"] = analysis::zone_spectral_radius(problem, *time_step);
-  const auto zeros = analysis::zero_energy_modes(problem);
-  answer["zero_energy_modes"] = Json::array();
-  for (const auto& wave_vector : zeros.wave_vectors)
-    answer["zero_energy_modes"].push_back(components<Dim>(wave_vector));
-  answer["zero_energy_modes_complete"] = zeros.complete;
+    answer["spectral_radius_at_time_step"] = modes.spectral_radius(*time_step);
+  if (request.wants("zero_energy_modes") || request.wants("zero_energy_modes_complete")) {
+    const auto zeros = analysis::zero_energy_modes(problem);
+    answer["zero_energy_modes"] = Json::array();
+    for (const auto& wave_vector : zeros.wave_vectors)
+      answer["zero_energy_modes"].push_back(components<Dim>(wave_vector));
+    answer["zero_energy_modes_complete"] = zeros.complete;
+  }
   return answer;
 }
 
@@ -182,11 +140,11 @@ Json matrix_answer(const Case& input) {
   const double time_step = input.required_number("time_step");
   const auto spectrum = analysis::mode_spectrum(problem, wave_vector, time_step);
   Json eigenvalues = Json::array();
-  for (const auto& eigenvalue : spectrum.eigenvalues) eigenvalues.push_back(to_json(eigenvalue));
+  for (const auto& eigenvalue : spectrum.eigenvalues) eigenvalues.push_back(complex_pair(eigenvalue));
   return {{"wave_vector", components<Dim>(wave_vector)},
           {"time_step", time_step},
           {"state", analysis::state_names(problem)},
-          {"amplification_matrix", to_json(analysis::amplification_matrix(problem, wave_vector, time_step))},
+          {"amplification_matrix", matrix_rows(analysis::amplification_matrix(problem, wave_vector, time_step))},
           {"eigenvalues", std::move(eigenvalues)},
           {"spectral_radius", spectrum.spectral_radius},
           {"power_bounded", spectrum.power_bounded}};
@@ -205,10 +163,8 @@ BodyChoice<Dim> body_choice(const Case& input) {
   return {Boundary::periodic, patch.value_or(LatticeIndex<Dim>::Constant(default_patch_cells<Dim>))};
 }
 
-Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
 template <int Dim>
-Json bisection_answer(const Case& input, const Progress& progress) {
+Json bisection_answer(const Case& input, const Request& request) {
   const auto problem = make_problem<Dim>(input);
   const auto choice = body_choice<Dim>(input);
   RunOptions options{.start_from_mode = input.required_word("seed") == "mode",
@@ -217,8 +173,10 @@ Json bisection_answer(const Case& input, const Progress& progress) {
   if (options.tolerance < least_tolerance)
     throw InvalidInput(fmt::format("tolerance: {:g} is not at least {:g}", options.tolerance, least_tolerance));
   if (const auto horizon = input.number("horizon")) options.horizon = static_cast<long>(*horizon);
-  if (progress)
-    options.progress = [&](double low, double high) { progress(closed_fraction(low, high, options.tolerance)); };
+  if (request.progress)
+    options.progress = [&](double low, double high) {
+      request.progress(closed_fraction(low, high, options.tolerance));
+    };
   const auto command = input.word("command");
   const auto found = compare_step(problem, choice, options, command ? foreign_solver(*command) : nullptr);
   const auto counts = std::vector<int>(choice.counts.data(), choice.counts.data() + Dim);
@@ -263,23 +221,23 @@ Json sums_answer(const Case& input) {
 
 }  // namespace
 
-Json time_step_answer(const Case& input, const Progress&) {
-  return in_dimension(input, [&](auto dimension) { return time_step_answer<dimension()>(input); });
+Json time_step_answer(const Case& input, const Request& request) {
+  return in_dimension(input, [&](auto dimension) { return time_step_answer<dimension()>(input, request); });
 }
 
-Json matrix_answer(const Case& input, const Progress&) {
+Json matrix_answer(const Case& input, const Request&) {
   return in_dimension(input, [&](auto dimension) { return matrix_answer<dimension()>(input); });
 }
 
-Json bisection_answer(const Case& input, const Progress& progress) {
-  return in_dimension(input, [&](auto dimension) { return bisection_answer<dimension()>(input, progress); });
+Json bisection_answer(const Case& input, const Request& request) {
+  return in_dimension(input, [&](auto dimension) { return bisection_answer<dimension()>(input, request); });
 }
 
-Json sums_answer(const Case& input, const Progress&) {
+Json sums_answer(const Case& input, const Request&) {
   return in_dimension(input, [&](auto dimension) { return sums_answer<dimension()>(input); });
 }
 
-Json kernel_answer(const Case& input, const Progress&) {
+Json kernel_answer(const Case& input, const Request&) {
   return in_dimension(input, [&](auto dimension) { return kernel_answer<dimension()>(input); });
 }
 

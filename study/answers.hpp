@@ -1,35 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
-#include <nlohmann/json.hpp>
-
-#include "model/case.hpp"
+#include "study/request.hpp"
 
 namespace sphstab::study {
-
-/// A result in the keys of the interface, in a fixed order.
-using Json = nlohmann::ordered_json;
-
-/// Told now and then which fraction of long work is done, in [0, 1].
-using Progress = std::function<void(double fraction)>;
 
 /// The answers of the commands. Each reads the keys it needs and throws InvalidInput for what is missing or wrong.
 
 /// `dt`: critical time step of the infinite lattice with all that the interface lists under it. With wave_vector (or
 /// mode and box) also the limit of that mode, with box alone that of the paper's M×L modes.
-Json time_step_answer(const Case& input, const Progress& progress);
+Json time_step_answer(const Case& input, const Request& request);
 
 /// `matrix`: the amplification matrix at one mode.
-Json matrix_answer(const Case& input, const Progress& progress);
+Json matrix_answer(const Case& input, const Request& request);
 
 /// `bisect`: the critical step found by running, beside the theory of the same patch or plate.
-Json bisection_answer(const Case& input, const Progress& progress);
+Json bisection_answer(const Case& input, const Request& request);
 
 /// `kernel` (batch only): W, dW, d2W and the normalisation at a distance.
-Json kernel_answer(const Case& input, const Progress& progress);
+Json kernel_answer(const Case& input, const Request& request);
 
 /// `sums` (batch only): Gray's lattice sums at a wave vector.
-Json sums_answer(const Case& input, const Progress& progress);
+Json sums_answer(const Case& input, const Request& request);
 
 }  // namespace sphstab::study

@@ -18,9 +18,6 @@
 namespace sphstab::study {
 namespace {
 
-/// No run is judged by fewer amplitudes.
-constexpr long fewest_amplitudes = 12;
-
 std::string replace_all(std::string text, std::string_view what, const std::string& by) {
   for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
     text.replace(at, what.size(), by);
@@ -85,15 +82,15 @@ GrowthProbe foreign_solver(const std::string& command) {
     const auto [logarithms, exploded] = read_amplitudes(output.text);
     const long steps = static_cast<long>(logarithms.size());
     solver::GrowthFit fit{solver::Trend::growing, 0.0, 0.0, 1.0, steps};
-    if (steps >= fewest_amplitudes) fit = solver::judge_growth(logarithms);
+    if (steps >= solver::fewest_amplitudes) fit = solver::judge_growth(logarithms);
     if (exploded) fit.trend = solver::Trend::growing;
     // A run that grows may end as it likes; any other must be whole.
-    if ((exploded || steps >= fewest_amplitudes) && fit.trend == solver::Trend::growing) return fit;
+    if ((exploded || steps >= solver::fewest_amplitudes) && fit.trend == solver::Trend::growing) return fit;
     if (output.status != 0)
       throw InvalidInput(WIFEXITED(output.status)
                              ? fmt::format("command: '{}' ended with status {}", run, WEXITSTATUS(output.status))
                              : fmt::format("command: '{}' was killed", run));
-    const long needed = std::max(horizon, fewest_amplitudes);
+    const long needed = std::max(horizon, solver::fewest_amplitudes);
     if (steps < needed)
       throw InvalidInput(fmt::format("command: '{}' printed {} amplitudes, but {} are needed", run, steps, needed));
     return fit;

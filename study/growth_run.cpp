@@ -31,8 +31,6 @@ constexpr int first_look = 8;
 constexpr int longest_run = 4;
 /// Relative difference of two slopes below which a growth is known well enough to find the root of the bisection.
 constexpr double settled = 1e-4;
-/// No run is judged by fewer amplitudes.
-constexpr std::size_t fewest_samples = 12;
 /// Strain energies taken in a horizon; each costs half a right-hand side.
 constexpr long samples = 1000;
 
@@ -107,7 +105,8 @@ bool GrowthRun<Dim>::run(long end, double time_step, int stride, State<Dim>& sta
     const double next = std::log(amplitude(state));
     if (!std::isfinite(next)) return false;
     log_amplitude.push_back(next);
-    if (next - log_amplitude.front() > largest_e_foldings_ && log_amplitude.size() > fewest_samples) return false;
+    if (next - log_amplitude.front() > largest_e_foldings_ && std::ssize(log_amplitude) > solver::fewest_amplitudes)
+      return false;
   }
   return true;
 }
@@ -120,8 +119,8 @@ GrowthFit GrowthRun<Dim>::operator()(double time_step, long horizon) {
   GrowthFit fit{};
   for (long end = std::max(1L, horizon / first_look); end <= longest_run * horizon; end *= 2) {
     const bool goes_on = run(end, time_step, stride, state, log_amplitude);
-    if (!goes_on && log_amplitude.size() <= fewest_samples) return explosion(log_amplitude, stride);
-    if (goes_on && log_amplitude.size() <= fewest_samples) continue;
+    if (!goes_on && std::ssize(log_amplitude) <= solver::fewest_amplitudes) return explosion(log_amplitude, stride);
+    if (goes_on && std::ssize(log_amplitude) <= solver::fewest_amplitudes) continue;
     fit = solver::judge_growth(log_amplitude, stride);
     if (!goes_on || (fit.trend == Trend::growing && fit.disagreement < settled)) break;
     if (end >= horizon && fit.trend != Trend::undecided) break;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "study/answers.hpp"
+#include "study/request.hpp"
 
 namespace sphstab::study {
 

@@ -88,7 +88,7 @@ TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& cho
 
 template <int Dim>
 std::optional<double> bulk_step(const Problem<Dim>& problem) {
-  return step_of<Dim>(analysis::bulk_limit(problem));
+  return step_of<Dim>(analysis::BulkModes(problem).limit());
 }
 
 template <int Dim>

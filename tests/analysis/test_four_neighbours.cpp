@@ -95,7 +95,7 @@ TEST_CASE("Zhang's bound for four neighbours is sufficient and not sharp", "[fas
     const double bound = std::sqrt(1.0 / (paper.c * (2.0 * paper.gamma + 3.0 * paper.G)));  // A.10
     const double exact = std::sqrt(1.0 / (2.0 * paper.c * (paper.gamma + paper.G)));
     CHECK(*published_bound(paper.problem) == Approx(bound).epsilon(rounding_tolerance));
-    const auto bulk = std::get<ConditionallyStable<2>>(bulk_limit(paper.problem));
+    const auto bulk = std::get<ConditionallyStable<2>>(BulkModes(paper.problem).limit());
     CHECK(bulk.critical_time_step == Approx(exact).epsilon(rounding_tolerance));
     CHECK(bulk.bracket.low <= exact);
     CHECK(exact <= bulk.bracket.high);
@@ -120,7 +120,7 @@ TEST_CASE("Zhang's bound exceeds the exact limit of a full stencil", "[fast]") {
                      Scheme{}};
   constexpr double printed = 6e-7;
   CHECK(std::abs(*published_bound(problem) - 3.138e-3) < printed);
-  CHECK(std::abs(std::get<ConditionallyStable<2>>(bulk_limit(problem)).critical_time_step - 2.830e-3) < printed);
+  CHECK(std::abs(std::get<ConditionallyStable<2>>(BulkModes(problem).limit()).critical_time_step - 2.830e-3) < printed);
   problem.lattice = Lattice<2>(LatticeKind::hexagonal, 2.5e-5);
   CHECK_FALSE(published_bound(problem));
 }

@@ -40,14 +40,14 @@ double patch_step(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
 
 template <int Dim>
 double bulk_step(const Problem<Dim>& problem) {
-  return std::get<analysis::ConditionallyStable<Dim>>(analysis::bulk_limit(problem)).critical_time_step;
+  return std::get<analysis::ConditionallyStable<Dim>>(analysis::BulkModes(problem).limit()).critical_time_step;
 }
 
 /// ω_max² of the infinite lattice: the scale of the dynamical matrix also on a patch that admits zero-energy modes
 /// only.
 template <int Dim>
 double largest_frequency_squared(const Problem<Dim>& problem) {
-  const auto limit = std::get<analysis::ConditionallyStable<Dim>>(analysis::bulk_limit(problem));
+  const auto limit = std::get<analysis::ConditionallyStable<Dim>>(analysis::BulkModes(problem).limit());
   return limit.mode.omega * limit.mode.omega;
 }
 

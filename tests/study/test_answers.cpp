@@ -19,7 +19,7 @@ namespace {
 /// A few roundings of the results of functions that are exact but for rounding.
 constexpr double rounding = 1e-12;
 
-using Answer = Json (*)(const Case&, const study::Progress&);
+using Answer = Json (*)(const Case&, const study::Request&);
 
 Case case_of(const Json& keys) {
   Case input;
@@ -29,7 +29,7 @@ Case case_of(const Json& keys) {
 
 Json dt(Json keys) {
   keys.update({{"scheme", "tl-linear"}, {"young_modulus", 2.9}, {"poisson_ratio", 0.31}, {"density", 1.7}});
-  return study::time_step_answer(case_of(keys), nullptr);
+  return study::time_step_answer(case_of(keys), {});
 }
 
 std::complex<double> complex(const Json& pair) { return {pair[0], pair[1]}; }
@@ -74,7 +74,7 @@ void check_reference(const std::string& command, Answer answer_of, std::size_t l
     Json keys = Json::parse(reference.dump()), expect = keys["expect"];
     const double tolerance = keys["tolerance"];
     for (const char* no_key : {"id", "command", "expect", "tolerance"}) keys.erase(no_key);
-    Json answer = answer_of(case_of(keys), nullptr);
+    Json answer = answer_of(case_of(keys), {});
     if (answer.contains("eigenvalues"))
       answer["characteristic_polynomial"] = characteristic_polynomial(answer["eigenvalues"]);
     if (expect.contains("critical_time_step")) {
@@ -201,7 +201,7 @@ TEST_CASE("a mode of a box is Zhang's wave vector", "[fast]") {
                                                     {"mode", {3, 1}},
                                                     {"box", {20, 10}},
                                                     {"time_step", 0.1}}),
-                                           nullptr);
+                                           {});
   CHECK(answer["wave_vector"][0].get<double>() == Approx(3 * std::numbers::pi / 10).epsilon(rounding));
   CHECK(answer["wave_vector"][1].get<double>() == Approx(std::numbers::pi / 5).epsilon(rounding));
 }
@@ -243,7 +243,7 @@ TEST_CASE("the answer of a bisection has every key of the interface", "[fast]") 
                                                        {"poisson_ratio", 0.3},
                                                        {"patch", {3, 4}},
                                                        {"tolerance", 1e-3}}),
-                                              nullptr);
+                                              {});
   CHECK(keys_of(answer) == std::set<std::string>{"patch", "critical_time_step", "bracket", "theory",
                                                  "relative_difference", "tolerance", "agrees", "bulk_theory",
                                                  "patch_deficit", "horizon", "runs", "steps",
