@@ -22,6 +22,12 @@ namespace {
 /// The roundings of the factors between ω² and Δt.
 constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
 
+/// Extreme units can under- or overflow a double on the way; an answer that is none must not look like one.
+void require_in_range(bool sound) {
+  if (!sound)
+    throw InvalidInput("spacing, density and moduli: together they leave the range of a double; choose other units");
+}
+
 /// Every index from 0 to counts − 1 on each axis.
 template <int Dim>
 std::vector<LatticeIndex<Dim>> indices_below(std::string_view key, const LatticeIndex<Dim>& counts) {
@@ -70,7 +76,8 @@ FrequencyRange<Dim> range_over(const Problem<Dim>& problem, const std::vector<Ve
     const double relative_error = symbol.series().rounding() / D.norm();
     const auto visit = [&](Branch branch, double omega_squared) {
       const double width = std::abs(omega_squared) * relative_error * (2.0 + relative_error);
-      const ExtremeMode<Dim> mode{k, branch, omega_squared, omega_squared - width, omega_squared + width};
+      const double least = omega_squared < 0.0 ? omega_squared - width : std::max(omega_squared - width, 0.0);
+      const ExtremeMode<Dim> mode{k, branch, omega_squared, least, omega_squared + width};
       if (omega_squared > range.highest.omega_squared) range.highest = mode;
       if (omega_squared < range.lowest.omega_squared) range.lowest = mode;
     };
@@ -89,8 +96,10 @@ StepLimit<Dim> limit_of(const FrequencyRange<Dim>& range, const ModeSteps& step_
   }
   const auto limit = step_of(highest.omega_squared).limit();
   if (!limit) return UnconditionallyStable{};
+  constexpr double everything = std::numeric_limits<double>::infinity();
   const Bracket bracket{*step_of(highest.upper).limit() * (1.0 - few_roundings),
-                        *step_of(highest.lower).limit() * (1.0 + few_roundings)};
+                        step_of(highest.lower).limit().value_or(everything) * (1.0 + few_roundings)};
+  require_in_range(0.0 < bracket.low && bracket.low <= *limit && *limit <= bracket.high);
   return ConditionallyStable<Dim>{
       *limit, bracket, {highest.wave_vector, highest.branch, std::sqrt(highest.omega_squared)}};
 }
@@ -105,6 +114,7 @@ BulkModes<Dim>::BulkModes(const Problem<Dim>& problem) : steps_(problem) {
   const Vector<Dim> q = Q.template selfadjointView<Eigen::Lower>().eigenvalues();
   const auto of_symbol = zone_maximum<Dim>(symbol.series(), Tensor<Dim>::Identity());
   symbol_maximum_ = std::sqrt(of_symbol.value);
+  require_in_range(std::isfinite(of_symbol.upper * q.cwiseAbs().maxCoeff()));
 
   const auto maximum = [&](const Tensor<Dim>& of_form) {
     const bool isotropic = of_form == of_form(0, 0) * Tensor<Dim>::Identity() && of_form(0, 0) > 0.0;
