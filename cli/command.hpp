@@ -24,6 +24,8 @@ struct CaseCommand {
   Json (*answer)(const Case& input, const study::Request& request);
   std::string (*describe)(const Json& answer);  ///< for people; absent for commands of `batch` alone
   bool (*holds)(const Json& answer) = nullptr;  ///< whether the claim that it checks holds; absent: it checks none
+  /// Lines that lead to the answer, for --explain; absent: the command has no such flag.
+  std::vector<std::string> (*explain)(const Case& input) = nullptr;
 };
 
 CaseCommand dt_command();

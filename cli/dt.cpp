@@ -3,6 +3,7 @@
 
 #include "cli/command.hpp"
 #include "cli/text.hpp"
+#include "study/explanation.hpp"
 
 namespace sphstab::cli {
 namespace {
@@ -72,6 +73,10 @@ std::string describe(const Json& answer) {
     text += row("tolerable time step", number_or(answer["time_step_for_tolerance"], "none"));
   if (answer.contains("equivalents")) text += describe_equivalents(answer["equivalents"]);
   text += describe_zero_energy(answer);
+  if (answer.contains("explanation")) {
+    text += "\nHow the limit comes about:\n";
+    for (const Json& line : answer["explanation"]) text += fmt::format("  {}\n", line.get<std::string>());
+  }
   return text + "\nNote: " + answer["note"].get<std::string>() + ".\n";
 }
 
@@ -83,7 +88,9 @@ CaseCommand dt_command() {
           {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time,
            KeyGroup::growth},
           study::time_step_answer,
-          describe};
+          describe,
+          nullptr,
+          study::explain_time_step};
 }
 
 }  // namespace sphstab::cli

@@ -28,10 +28,11 @@ void check_format(const std::string& format) {
   if (std::find(formats.begin(), formats.end(), format) == formats.end()) throw unknown_word("format", format, formats);
 }
 
-int run_case_command(const CaseCommand& command, const Case& input, const std::string& format) {
+int run_case_command(const CaseCommand& command, const Case& input, const std::string& format, bool explain) {
   check_format(format);
   io::Progress bar{std::string(command.name)};
-  const Json answer = command.answer(input, {.progress = [&](double fraction) { bar.show(fraction); }});
+  Json answer = command.answer(input, {.progress = [&](double fraction) { bar.show(fraction); }});
+  if (explain) answer["explanation"] = command.explain(input);
   print(answer, format, command.describe);
   return command.holds == nullptr || command.holds(answer) ? ExitStatus::done : ExitStatus::claim_fails;
 }
@@ -87,7 +88,10 @@ class Program {
     auto options = std::make_shared<CaseOptions>();
     options->add_to(*app, command.groups);
     add_format(*app, format_);
-    actions_.push_back({app, [this, command, options] { return run_case_command(command, options->read(), format_); }});
+    if (command.explain != nullptr)
+      app->add_flag("--explain", explain_, "lead from the scheme to the result, line by line");
+    actions_.push_back(
+        {app, [this, command, options] { return run_case_command(command, options->read(), format_, explain_); }});
   }
 
   void add_batch() {
@@ -144,6 +148,7 @@ class Program {
       "Which time step is safe for elastic solids in SPH, and what is not: theory, and a solver that proves it."};
   std::vector<Action> actions_;
   std::string format_ = "text";
+  bool explain_ = false;
   std::string argument_;
 };
 

@@ -133,6 +133,15 @@ TEST_CASE("dt names a published bound that is not safe", "[fast]") {
              Contains("safe here") && !Contains("UNSAFE here"));
 }
 
+TEST_CASE("dt explains its limit in ten lines, in text and as a list in JSON", "[fast]") {
+  const Json lines = result_of(on_case("dt", {"--explain", "--format", "json"})).json()["explanation"];
+  REQUIRE(lines.size() == 10);
+  const std::string text = result_of(on_case("dt", {"--explain"})).out;
+  for (const Json& line : lines) CHECK_THAT(text, Contains("  " + line.get<std::string>() + "\n"));
+  CHECK_FALSE(result_of(on_case("dt", {"--format", "json"})).json().contains("explanation"));
+  CHECK_THAT(complaint_about(on_case("matrix", {"--explain"})), Contains("--explain"));
+}
+
 TEST_CASE("text shows the numbers of the JSON", "[fast]") {
   // Twelve digits in text.
   constexpr double printed = 1e-11;

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "study/explanation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "analysis/critical_step.hpp"
+#include "analysis/gradient_symbol.hpp"
+#include "study/json_values.hpp"
+
+namespace sphstab::study {
+namespace {
+
+/// Factors on the smoothing length that a user would try.
+constexpr std::array<double, 2> other_smoothing_lengths{0.8, 1.25};
+/// Changes that are named, and the gain below which none is worth its name.
+constexpr std::size_t changes_named = 3;
+constexpr double least_gain = 0.005;
+/// Relative error of the speed of long waves that a change may bring.
+constexpr double tolerable_long_wave_error = 0.05;
+/// Particles in the drawing of a wave.
+constexpr int particles_drawn = 13;
+
+std::string line(std::string_view subject, std::string_view text) { return fmt::format("{:<12}{}", subject, text); }
+
+template <int Rows>
+std::string list_of(const Vector<Rows>& vector) {
+  return fmt::format("({:.5g})", fmt::join(vector.data(), vector.data() + Rows, ", "));
+}
+
+template <int Dim>
+std::vector<LatticeNeighbour<Dim>> neighbours_of(const Problem<Dim>& problem) {
+  return lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule);
+}
+
+/// Displacements cos(φ j) of the particles j = 0, 1, … of a row as bars of seven heights.
+std::string wave(double phase) {
+  static constexpr std::array<std::string_view, 7> bars{"▁", "▂", "▃", "▄", "▅", "▆", "▇"};
+  std::string text;
+  for (int j = 0; j < particles_drawn; ++j)
+    text += bars[static_cast<std::size_t>(std::lround(3.0 + 3.0 * std::cos(phase * j)))];
+  return text;
+}
+
+template <int Dim>
+std::string waves(const Problem<Dim>& problem, const Vector<Dim>& wave_vector) {
+  std::string text;
+  for (int i = 0; i < Dim; ++i)
+    text += fmt::format("{}a{} {}", i == 0 ? "" : "   ", i + 1,
+                        wave(wave_vector.dot(problem.lattice.primitive_vectors().col(i))));
+  return text;
+}
+
+template <int Dim>
+std::string worst_mode(const Problem<Dim>& problem, const analysis::CriticalMode<Dim>& mode) {
+  const double wavelength = 2.0 * std::numbers::pi / mode.wave_vector.norm();
+  return fmt::format("k = {}, {}, {:.4g} spacings long; the displacements of its wave from particle to particle:",
+                     list_of<Dim>(mode.wave_vector),
+                     mode.branch == analysis::Branch::longitudinal ? "longitudinal" : "transverse",
+                     wavelength / problem.lattice.spacing());
+}
+
+/// |L − I| of the consistency of the gradient: the relative error of the speed of long waves.
+template <int Dim>
+double long_wave_error(const Problem<Dim>& problem) {
+  const Tensor<Dim> excess = analysis::GradientSymbol<Dim>(problem).consistency() - Tensor<Dim>::Identity();
+  return excess.cwiseAbs().maxCoeff();
+}
+
+/// One change of the case and the limit that it leads to.
+struct Change {
+  std::string what;
+  double factor;  ///< new limit over old one
+  std::size_t neighbours;
+};
+
+/// The case with one key changed. Nothing where that has no finite limit, or where long waves run wrong by more than
+/// they do already and are allowed to: a kernel that hardly feels its neighbours bears any step.
+template <int Dim>
+std::optional<Change> change(const Case& changed, const Problem<Dim>& problem, const std::string& what, double limit) {
+  const auto other = make_problem<Dim>(changed);
+  if (long_wave_error(other) > std::max(long_wave_error(problem), tolerable_long_wave_error)) return std::nullopt;
+  const auto found = analysis::BulkModes<Dim>(other).limit();
+  const auto* const stable = std::get_if<analysis::ConditionallyStable<Dim>>(&found);
+  if (stable == nullptr) return std::nullopt;
+  return Change{what, stable->critical_time_step / limit, neighbours_of(other).size()};
+}
+
+template <int Dim>
+std::vector<Change> changes(const Case& input, const Problem<Dim>& problem, double limit) {
+  std::vector<Change> found;
+  const auto attempt = [&](std::string_view key, KeyValue value, const std::string& what) {
+    Case changed = input;
+    changed.set(key, std::move(value));
+    try {
+      if (auto one = change<Dim>(changed, problem, what, limit)) found.push_back(*std::move(one));
+    } catch (const InvalidInput&) {  // such as no neighbour within a shorter h: no change to recommend
+    }
+  };
+  for (const auto& [family, name] : Names<KernelFamily>::table)
+    if (family != problem.kernel.family()) attempt("kernel", std::string(name), fmt::format("kernel {}", name));
+  const double spacing = problem.lattice.spacing(), h = problem.kernel.smoothing_length();
+  for (const double factor : other_smoothing_lengths) {
+    const std::string what = fmt::format("h = {:.4g} spacings", factor * h / spacing);
+    if (input.has("h_over_spacing"))
+      attempt("h_over_spacing", factor * h / spacing, what);
+    else
+      attempt("smoothing_length", factor * h, what);
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.factor > b.factor; });
+  return found;
+}
+
+template <int Dim>
+std::string advice(const Case& input, const Problem<Dim>& problem, double limit) {
+  std::vector<std::string> parts;
+  for (const auto& one : changes(input, problem, limit))
+    if (parts.size() < changes_named && one.factor > 1.0 + least_gain)
+      parts.push_back(
+          fmt::format("{} {:+.0f} % ({} neighbours)", one.what, 100.0 * (one.factor - 1.0), one.neighbours));
+  if (parts.empty()) parts.push_back("no other kernel of the same h, nor h a quarter longer or a fifth shorter, does");
+  return fmt::format("{}; a coarser spacing raises it in proportion", fmt::join(parts, ", "));
+}
+
+template <int Dim>
+std::string integrator_rule(const Problem<Dim>& problem, double omega_step) {
+  const auto name = name_of(problem.integrator);
+  if (!problem.scheme.damping)
+    return fmt::format("{} makes each mode a 2x2 map whose eigenvalues stay on the unit circle while omega dt <= 2",
+                       name);
+  return fmt::format(
+      "{} with the damping rate {:g}: an eigenvalue of the worst mode's map passes -1 at omega dt = {:.6g}", name,
+      problem.scheme.damping->rate, omega_step);
+}
+
+template <int Dim>
+std::vector<std::string> explain(const Case& input) {
+  const auto problem = make_problem<Dim>(input);
+  const auto neighbours = neighbours_of(problem);
+  const analysis::BulkModes<Dim> modes(problem);
+  const LameConstants lame = problem.material.lame(problem.plane);
+  const double rho = problem.material.density(), spacing = problem.lattice.spacing();
+  const double p_wave_speed = std::sqrt(lame.p_wave_modulus() / rho);
+  const double h = problem.kernel.smoothing_length();
+
+  std::vector<std::string> lines{
+      line("Scheme", fmt::format("{}: a wave s exp(ik.x) of small displacements obeys d2s/dt2 = -M(k) s",
+                                 name_of(problem.scheme.formulation))),
+      line("Material", fmt::format("density {:g}, p-wave speed {:.5g}, s-wave speed {:.5g}", rho, p_wave_speed,
+                                   std::sqrt(lame.shear_modulus / rho))),
+      line("Neighbours",
+           fmt::format(
+               "{} on the {} lattice, from {:.4g} to {:.4g} away; the {} with h = {:.4g} spacings ends at {:.4g}",
+               neighbours.size(), name_of(problem.lattice.kind()), neighbours.front().distance,
+               neighbours.back().distance, name_of(problem.kernel.family()), h / spacing, problem.kernel.support())),
+      line("Symbol",
+           fmt::format("the particle sums see D(k) in place of k: right to {:.2g} % for long waves, |D| <= {:.6g} "
+                       "= {:.4g} / spacing for all",
+                       100.0 * long_wave_error(problem), modes.symbol_maximum(), modes.symbol_maximum() * spacing))};
+  const auto explain_mode = [&](const analysis::CriticalMode<Dim>& mode) {
+    lines.push_back(line("Worst mode", worst_mode(problem, mode)));
+    lines.push_back(line("", waves(problem, mode.wave_vector)));
+  };
+  std::visit(
+      Overloaded{
+          [&](const analysis::ConditionallyStable<Dim>& stable) {
+            const double step = stable.critical_time_step, omega = stable.mode.omega;
+            explain_mode(stable.mode);
+            lines.push_back(
+                line("Frequency",
+                     fmt::format("omega = {:.6g}, the largest of all modes: {:.4g} times p-wave speed / spacing", omega,
+                                 omega * spacing / p_wave_speed)));
+            lines.push_back(line("Integrator", integrator_rule(problem, omega * step)));
+            lines.push_back(
+                line("Limit", fmt::format("dt = {:.4g} / omega = {:.8g}; Courant number dt c_p / spacing = {:.6g}",
+                                          omega * step, step, step * p_wave_speed / spacing)));
+            lines.push_back(line("To raise it", advice(input, problem, step)));
+          },
+          [&](const analysis::UnconditionallyStable&) {
+            lines.push_back(line("Limit", "no mode has a restoring force, so that no step is too long"));
+          },
+          [&](const analysis::NeverStable<Dim>& unstable) {
+            explain_mode(unstable.mode);
+            lines.push_back(line(
+                "Growth",
+                fmt::format("omega^2 = -{:.6g}: the base state makes the mode grow by exp({:.6g} t) in continuous time",
+                            unstable.mode.omega * unstable.mode.omega, unstable.growth_rate)));
+            lines.push_back(line("Limit", "no time step is stable; the base state has to change, not the step"));
+          }},
+      modes.limit());
+  return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> explain_time_step(const Case& input) {
+  return in_dimension(input, [&](auto dimension) { return explain<dimension()>(input); });
+}
+
+}  // namespace sphstab::study

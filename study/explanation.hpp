@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/case.hpp"
+
+namespace sphstab::study {
+
+/// `dt --explain`: ten lines that lead from the scheme to its limit with the numbers of this case: material,
+/// neighbours, symbol, worst mode with a drawing of its wave, frequency, integrator, limit, and which other kernel or
+/// smoothing length would raise it most. Throws InvalidInput as `dt` does.
+std::vector<std::string> explain_time_step(const Case& input);
+
+}  // namespace sphstab::study
