@@ -10,27 +10,27 @@ namespace {
 
 using Row = std::vector<double>;
 
-/// Cosines and sines of n θ_j, θ_j = (2j + 1) π / cells, for 0 ≤ n ≤ reach: row n, column j.
+/// An end of a domain that is this part of a box beyond the end of a box lies on it.
+constexpr double end_tolerance = 1e-9;
+
+/// Cosines and sines of n θ_j, θ_j = (2 (first + j) + 1) π / cells, for 0 ≤ n ≤ reach: row n, column j.
 struct AngleTable {
   std::size_t points;
   Row cosine;
   Row sine;
 
-  AngleTable(std::size_t cells, std::size_t points_, int reach) : points(points_) {
-    Row cos_m(2 * cells), sin_m(2 * cells);  // of m π / cells
-    for (std::size_t m = 0; m <= cells; ++m) {
+  AngleTable(long cells, long first, std::size_t points_, int reach) : points(points_) {
+    Row cos_m(static_cast<std::size_t>(2 * cells)), sin_m(cos_m.size());  // of m π / cells
+    for (std::size_t m = 0; m < cos_m.size(); ++m) {
       const double angle = std::numbers::pi * static_cast<double>(m) / static_cast<double>(cells);
       cos_m[m] = std::cos(angle);
       sin_m[m] = std::sin(angle);
-      if (m == 0 || m == cells) continue;
-      cos_m[2 * cells - m] = cos_m[m];
-      sin_m[2 * cells - m] = -sin_m[m];
     }
-    for (std::size_t n = 0; n <= static_cast<std::size_t>(reach); ++n)
-      for (std::size_t j = 0; j < points; ++j) {
-        const std::size_t m = (2 * j + 1) * n % (2 * cells);
-        cosine.push_back(cos_m[m]);
-        sine.push_back(sin_m[m]);
+    for (long n = 0; n <= reach; ++n)
+      for (long j = first; j < first + static_cast<long>(points); ++j) {
+        const long turns = 2 * cells, m = ((2 * j + 1) * n % turns + turns) % turns;
+        cosine.push_back(cos_m[static_cast<std::size_t>(m)]);
+        sine.push_back(sin_m[static_cast<std::size_t>(m)]);
       }
   }
 };
@@ -78,7 +78,7 @@ Row sum_last_axis(const Partial& in, int reach, std::size_t inner, const AngleTa
 
 /// Component i of the series at every centre.
 template <int Dim>
-Row tabulate(const SineSeries<Dim>& series, int i, std::size_t cells) {
+Row tabulate(const SineSeries<Dim>& series, int i, const std::vector<AngleTable>& tables) {
   const auto& reach = series.reach();
   const auto frequencies = [&](int axis) {
     return static_cast<std::size_t>((axis == Dim - 1 ? 1 : 2) * reach[axis] + 1);
@@ -95,32 +95,30 @@ Row tabulate(const SineSeries<Dim>& series, int i, std::size_t cells) {
     partial.real[index] += sign * term.coefficient[i];
   }
   std::size_t outer = size, inner = 1;
-  for (int axis = 0; axis < Dim - 1; ++axis, inner *= cells) {
+  for (int axis = 0; axis < Dim - 1; ++axis) {
     outer /= frequencies(axis);
-    partial = sum_axis(partial, outer, reach[axis], inner, AngleTable(cells, cells, reach[axis]));
+    partial = sum_axis(partial, outer, reach[axis], inner, tables[axis]);
+    inner *= tables[axis].points;
   }
-  return sum_last_axis(partial, reach[Dim - 1], inner, AngleTable(cells, cells / 2, reach[Dim - 1]));
+  return sum_last_axis(partial, reach[Dim - 1], inner, tables[Dim - 1]);
 }
 
 }  // namespace
 
 template <int Dim>
-std::array<PhaseBox<Dim>, 1u << Dim> PhaseBox<Dim>::children() const {
-  std::array<PhaseBox, 1u << Dim> boxes;
-  for (unsigned corner = 0; corner < boxes.size(); ++corner) {
-    boxes[corner] = {centre, 0.5 * half_width};
-    for (int axis = 0; axis < Dim; ++axis)
-      boxes[corner].centre[axis] += (corner >> axis & 1u ? 0.5 : -0.5) * half_width;
+ZoneGrid<Dim>::ZoneGrid(const SineSeries<Dim>& series, const Tensor<Dim>& form, const ZoneDomain<Dim>& domain,
+                        double resolution) {
+  const long cells = std::lround(std::ceil(std::numbers::pi * series.type() / resolution));
+  half_width_ = std::numbers::pi / static_cast<double>(cells);
+  std::vector<AngleTable> tables;
+  for (int axis = 0; axis < Dim; ++axis) {
+    first_[axis] = std::lround(std::floor(domain.low()[axis] / (2.0 * half_width_) + end_tolerance));
+    const long end = std::lround(std::ceil(domain.high()[axis] / (2.0 * half_width_) - end_tolerance));
+    points_[axis] = static_cast<std::size_t>(std::max(end - first_[axis], 1L));
+    tables.emplace_back(cells, first_[axis], points_[axis], series.reach()[axis]);
   }
-  return boxes;
-}
-
-template <int Dim>
-ZoneGrid<Dim>::ZoneGrid(const SineSeries<Dim>& series, const Tensor<Dim>& form, double resolution)
-    : cells_(2 * static_cast<std::size_t>(std::ceil(0.5 * std::numbers::pi * series.type() / resolution))),
-      half_width_(std::numbers::pi / static_cast<double>(cells_)) {
   std::array<Row, Dim> D;
-  for (int i = 0; i < Dim; ++i) D[i] = tabulate(series, i, cells_);
+  for (int i = 0; i < Dim; ++i) D[i] = tabulate(series, i, tables);
   values_.assign(D[0].size(), 0.0);
   for (int i = 0; i < Dim; ++i)
     for (int j = 0; j <= i; ++j) {
@@ -134,27 +132,14 @@ ZoneGrid<Dim>::ZoneGrid(const SineSeries<Dim>& series, const Tensor<Dim>& form, 
 template <int Dim>
 PhaseBox<Dim> ZoneGrid<Dim>::box(std::size_t index) const {
   PhaseBox<Dim> box{{}, half_width_};
-  for (int axis = 0; axis < Dim; ++axis, index /= cells_)
-    box.centre[axis] = static_cast<double>(2 * (index % cells_) + 1) * half_width_;
+  for (int axis = 0; axis < Dim; index /= points_[axis], ++axis)
+    box.centre[axis] =
+        static_cast<double>(2 * (first_[axis] + static_cast<long>(index % points_[axis])) + 1) * half_width_;
   return box;
 }
 
-template <int Dim>
-Vector<Dim> wrapped(const Vector<Dim>& phases) {
-  constexpr double turn = 2.0 * std::numbers::pi;
-  Vector<Dim> result = phases;
-  for (int axis = 0; axis < Dim; ++axis) result[axis] -= turn * std::floor(result[axis] / turn + 0.5);
-  return result;
-}
-
-template struct PhaseBox<1>;
 template class ZoneGrid<1>;
-template Vector<1> wrapped<1>(const Vector<1>&);
-template struct PhaseBox<2>;
 template class ZoneGrid<2>;
-template Vector<2> wrapped<2>(const Vector<2>&);
-template struct PhaseBox<3>;
 template class ZoneGrid<3>;
-template Vector<3> wrapped<3>(const Vector<3>&);
 
 }  // namespace sphstab::analysis

@@ -54,11 +54,12 @@ struct LiveBox {
 template <int Dim>
 class MaximumSearch {
  public:
-  MaximumSearch(const SineSeries<Dim>& series, const Tensor<Dim>& form) : series_(series), form_(form) {
+  MaximumSearch(const SineSeries<Dim>& series, const Tensor<Dim>& form, const ZoneDomain<Dim>& domain)
+      : series_(series), form_(form), domain_(domain) {
     const auto eigenvalues = form.template selfadjointView<Eigen::Lower>().eigenvalues();
     form_norm_ = eigenvalues.cwiseAbs().maxCoeff();
     if (eigenvalues.minCoeff() >= 0.0) return;
-    const double largest_square = MaximumSearch(series, Tensor<Dim>::Identity()).run().upper;
+    const double largest_square = MaximumSearch(series, Tensor<Dim>::Identity(), domain).run().upper;
     floor_ = eigenvalues.minCoeff() * largest_square;
     largest_image_ = form_norm_ * std::sqrt(largest_square);
   }
@@ -101,7 +102,7 @@ class MaximumSearch {
   }
 
   std::vector<LiveBox<Dim>> coarse_survivors() {
-    const ZoneGrid<Dim> grid(series_, form_, grid_resolution);
+    const ZoneGrid<Dim> grid(series_, form_, domain_, grid_resolution);
     const auto& q = grid.values();
     const auto peak = std::max_element(q.begin(), q.end());
     const double ceiling = riesz_bound(*peak, grid.half_width());
@@ -118,7 +119,8 @@ class MaximumSearch {
     for (std::size_t i = 0; i < q.size(); ++i) {
       if (q[i] < least) continue;
       const PhaseBox<Dim> box = grid.box(i);
-      if (const double bound = value_bound(q[i] + margin_, box); bound >= best_) live.push_back({box, bound});
+      const double bound = value_bound(q[i] + margin_, box);
+      if (bound >= best_ && domain_.touches(box)) live.push_back({box, bound});
     }
     return live;
   }
@@ -172,19 +174,8 @@ class MaximumSearch {
     keep_ball(phases, std::min(reach, 1.5 * mu / third_derivative(here, reach)));
   }
 
-  /// Every image of the ball, by translation and inversion, that touches the half zone.
   void keep_ball(const Vector<Dim>& phases, double radius) {
-    for (const double sign : {1.0, -1.0})
-      for (unsigned shift = 0; shift < (1u << Dim); ++shift) {
-        Vector<Dim> centre = wrapped<Dim>(sign * phases);
-        bool touches = true;
-        for (int axis = 0; axis < Dim; ++axis) {
-          if (shift >> axis & 1u) centre[axis] += 2.0 * std::numbers::pi;
-          const double end = axis == Dim - 1 ? std::numbers::pi : 2.0 * std::numbers::pi;
-          touches = touches && centre[axis] > -radius && centre[axis] < end + radius;
-        }
-        if (touches) balls_.push_back({centre, radius});
-      }
+    for (const auto& centre : domain_.images(phases, radius)) balls_.push_back({centre, radius});
   }
 
   bool is_safe(const PhaseBox<Dim>& box) const {
@@ -233,7 +224,8 @@ class MaximumSearch {
       climb(live.box.centre);
       if (is_safe(live.box)) return;
     }
-    for (const auto& child : live.box.children()) next.push_back({child, bound});
+    for (const auto& child : live.box.children())
+      if (domain_.touches(child)) next.push_back({child, bound});
   }
 
   /// Where the budget was spent on a ring of near-maxima, climbs from places all along it find the highest of them.
@@ -244,6 +236,7 @@ class MaximumSearch {
 
   const SineSeries<Dim>& series_;
   Tensor<Dim> form_;
+  const ZoneDomain<Dim>& domain_;
   double form_norm_ = 0.0;
   double floor_ = 0.0;          ///< m ≤ q
   double largest_image_ = 0.0;  ///< bound on |Q D| where it matters
@@ -261,12 +254,12 @@ class MaximumSearch {
 }  // namespace
 
 template <int Dim>
-ZoneMaximum<Dim> zone_maximum(const SineSeries<Dim>& series, const Tensor<Dim>& form) {
-  return MaximumSearch<Dim>(series, form).run();
+ZoneMaximum<Dim> zone_maximum(const SineSeries<Dim>& series, const Tensor<Dim>& form, const ZoneDomain<Dim>& domain) {
+  return MaximumSearch<Dim>(series, form, domain).run();
 }
 
-template ZoneMaximum<1> zone_maximum(const SineSeries<1>&, const Tensor<1>&);
-template ZoneMaximum<2> zone_maximum(const SineSeries<2>&, const Tensor<2>&);
-template ZoneMaximum<3> zone_maximum(const SineSeries<3>&, const Tensor<3>&);
+template ZoneMaximum<1> zone_maximum(const SineSeries<1>&, const Tensor<1>&, const ZoneDomain<1>&);
+template ZoneMaximum<2> zone_maximum(const SineSeries<2>&, const Tensor<2>&, const ZoneDomain<2>&);
+template ZoneMaximum<3> zone_maximum(const SineSeries<3>&, const Tensor<3>&, const ZoneDomain<3>&);
 
 }  // namespace sphstab::analysis

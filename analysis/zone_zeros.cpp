@@ -27,9 +27,10 @@ constexpr double same_zero = 1e-7;
 template <int Dim>
 class ZeroSearch {
  public:
-  explicit ZeroSearch(const SineSeries<Dim>& series)
+  ZeroSearch(const SineSeries<Dim>& series, const ZoneDomain<Dim>& domain)
       : series_(series),
-        largest_(std::sqrt(zone_maximum<Dim>(series, Tensor<Dim>::Identity()).upper)),
+        domain_(domain),
+        largest_(std::sqrt(zone_maximum<Dim>(series, Tensor<Dim>::Identity(), domain).upper)),
         third_derivative_(std::min(std::pow(series.euclidean_type(), 3) * largest_, series.derivative_bound(3))) {}
 
   ZoneZeros<Dim> run() {
@@ -38,11 +39,11 @@ class ZeroSearch {
       for (int axis = 0; axis < Dim; ++axis) phases[axis] = corner >> axis & 1u ? -std::numbers::pi : 0.0;
       keep(phases);
     }
-    const ZoneGrid<Dim> grid(series_, Tensor<Dim>::Identity(), grid_resolution);
+    const ZoneGrid<Dim> grid(series_, Tensor<Dim>::Identity(), domain_, grid_resolution);
     const double reachable = largest_ * std::sin(series_.type() * grid.half_width()) + series_.rounding();
     std::vector<PhaseBox<Dim>> live;
     for (std::size_t i = 0; i < grid.values().size(); ++i)
-      if (grid.values()[i] <= reachable * reachable) live.push_back(grid.box(i));
+      if (grid.values()[i] <= reachable * reachable && domain_.touches(grid.box(i))) live.push_back(grid.box(i));
     while (!live.empty() && complete_) {
       std::vector<PhaseBox<Dim>> next;
       for (const auto& box : live) examine(box, next);
@@ -99,18 +100,19 @@ class ZeroSearch {
     if ((inverse * jet.value).norm() > rho + inverse_norm * (0.5 * K * rho * rho + delta)) return;
     if (inverse_norm * K * r < 1.0)
       if (const auto zero = newton(box.centre, r)) {
-        keep(*zero);
-        keep(-*zero);
+        for (const auto& map : domain_.group()) keep(map * *zero);
         return;
       }
     if (value <= delta && slope * rho <= delta) {
       complete_ = false;
       return;
     }
-    for (const auto& child : box.children()) next.push_back(child);
+    for (const auto& child : box.children())
+      if (domain_.touches(child)) next.push_back(child);
   }
 
   const SineSeries<Dim>& series_;
+  const ZoneDomain<Dim>& domain_;
   double largest_;
   double third_derivative_;
   std::vector<Vector<Dim>> zeros_;
@@ -121,12 +123,12 @@ class ZeroSearch {
 }  // namespace
 
 template <int Dim>
-ZoneZeros<Dim> zone_zeros(const SineSeries<Dim>& series) {
-  return ZeroSearch<Dim>(series).run();
+ZoneZeros<Dim> zone_zeros(const SineSeries<Dim>& series, const ZoneDomain<Dim>& domain) {
+  return ZeroSearch<Dim>(series, domain).run();
 }
 
-template ZoneZeros<1> zone_zeros(const SineSeries<1>&);
-template ZoneZeros<2> zone_zeros(const SineSeries<2>&);
-template ZoneZeros<3> zone_zeros(const SineSeries<3>&);
+template ZoneZeros<1> zone_zeros(const SineSeries<1>&, const ZoneDomain<1>&);
+template ZoneZeros<2> zone_zeros(const SineSeries<2>&, const ZoneDomain<2>&);
+template ZoneZeros<3> zone_zeros(const SineSeries<3>&, const ZoneDomain<3>&);
 
 }  // namespace sphstab::analysis

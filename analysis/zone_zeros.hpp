@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/sine_series.hpp"
+#include "analysis/zone_domain.hpp"
 
 namespace sphstab::analysis {
 
@@ -16,7 +17,8 @@ struct ZoneZeros {
   bool complete;
 };
 
-/// All zeros by exclusion. A box about c, of half-width w and radius ρ, is done if
+/// All zeros by exclusion over `domain`, whose group must map zeros on zeros. A box about c, of half-width w and radius
+/// ρ, is done if
 ///   |f(c)| > F sin(σ w), F = max |f|: no zero (Duffin and Schaeffer; on the coarse grid), or
 ///   |J⁻¹f(c)| > ρ + ½|J⁻¹| K ρ² or |f(c)| > |J| ρ + ½ K ρ²: no zero, or
 ///   |J⁻¹| K r < 1 with r = 2ρ and the Newton iteration from c ends within r: that zero is the only one within r,
@@ -24,10 +26,10 @@ struct ZoneZeros {
 /// it is certain in spite of rounding δ: σ_min(J)² > 4 K δ (Kantorovich). The points θ_i ∈ {0, π} are zeros of every
 /// such series. Tested in tests/analysis/test_zero_energy_modes.cpp.
 template <int Dim>
-ZoneZeros<Dim> zone_zeros(const SineSeries<Dim>& series);
+ZoneZeros<Dim> zone_zeros(const SineSeries<Dim>& series, const ZoneDomain<Dim>& domain = {});
 
-extern template ZoneZeros<1> zone_zeros(const SineSeries<1>&);
-extern template ZoneZeros<2> zone_zeros(const SineSeries<2>&);
-extern template ZoneZeros<3> zone_zeros(const SineSeries<3>&);
+extern template ZoneZeros<1> zone_zeros(const SineSeries<1>&, const ZoneDomain<1>&);
+extern template ZoneZeros<2> zone_zeros(const SineSeries<2>&, const ZoneDomain<2>&);
+extern template ZoneZeros<3> zone_zeros(const SineSeries<3>&, const ZoneDomain<3>&);
 
 }  // namespace sphstab::analysis
