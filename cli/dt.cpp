@@ -83,7 +83,9 @@ CaseCommand dt_command() {
           {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time,
            KeyGroup::growth},
           study::time_step_answer,
-          describe};
+          describe,
+          nullptr,
+          {"critical_time_step", "courant_number", "verdict", "critical_mode.branch", "critical_mode.wave_vector"}};
 }
 
 }  // namespace sphstab::cli
