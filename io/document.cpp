@@ -42,17 +42,17 @@ void flatten(const Document& object, const std::string& prefix, FlatRow& row) {
   }
 }
 
-std::vector<FlatRow> flat_rows(const Document& rows) {
-  std::vector<FlatRow> flat(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) flatten(rows[i], "", flat[i]);
-  return flat;
+FlatRow flat(const Document& object) {
+  FlatRow row;
+  flatten(object, "", row);
+  return row;
 }
 
 /// Every key of the rows, in the order of first appearance.
-std::vector<Column> all_columns(const std::vector<FlatRow>& rows, const std::string& number_format) {
+std::vector<Column> all_columns(const Document& rows, const std::string& number_format) {
   std::vector<Column> columns;
   for (const auto& row : rows)
-    for (const auto& [key, value] : row)
+    for (const auto& [key, value] : flat(row))
       if (std::none_of(columns.begin(), columns.end(), [&name = key](const Column& c) { return c.key == name; }))
         columns.push_back({key, key, number_format});
   return columns;
@@ -63,26 +63,14 @@ std::string cell(const FlatRow& row, const Column& column) {
   return found == row.end() ? std::string() : cell_text(found->second, column.number_format);
 }
 
-Table select(const std::vector<FlatRow>& rows, const std::vector<Column>& columns) {
-  Table table;
-  for (const auto& column : columns) table.header.push_back(column.header);
-  for (const auto& row : rows) {
-    auto& cells = table.rows.emplace_back();
-    for (const auto& column : columns) cells.push_back(cell(row, column));
-  }
-  return table;
-}
-
 Table case_per_row(const Document& document) {
   return to_table(document.is_array() ? document : Document::array({document}), every_digit);
 }
 
 Table key_per_row(const Document& document) {
   if (document.is_array()) return case_per_row(document);
-  FlatRow row;
-  flatten(document, "", row);
   Table table{{"key", "value"}, {}};
-  for (const auto& [key, value] : row) table.rows.push_back({key, cell_text(value, every_digit)});
+  for (const auto& [key, value] : flat(document)) table.rows.push_back({key, cell_text(value, every_digit)});
   return table;
 }
 
@@ -173,11 +161,19 @@ std::string latex_cell(const std::string& text) {
 
 }  // namespace
 
-Table select(const Document& rows, const std::vector<Column>& columns) { return select(flat_rows(rows), columns); }
+Table select(const Document& rows, const std::vector<Column>& columns) {
+  Table table;
+  for (const auto& column : columns) table.header.push_back(column.header);
+  for (const auto& object : rows) {
+    const FlatRow row = flat(object);
+    auto& cells = table.rows.emplace_back();
+    for (const auto& column : columns) cells.push_back(cell(row, column));
+  }
+  return table;
+}
 
 Table to_table(const Document& rows, const std::string& number_format) {
-  const auto flat = flat_rows(rows);
-  return select(flat, all_columns(flat, number_format));
+  return select(rows, all_columns(rows, number_format));
 }
 
 std::string write(const Document& document, Format format) {

@@ -169,7 +169,7 @@ TEST_CASE("tables of list have a row for each name", "[fast]") {
 TEST_CASE("help and version are results, and help shows the flag of every key with its default", "[fast]") {
   CHECK_THAT(result_of({"--version"}).out, StartsWith("sphstab "));
   const std::string help = result_of({"--help"}).out;
-  for (const std::string command : {"dt", "matrix", "bisect", "batch", "list", "report"}) {
+  for (const std::string command : {"dt", "matrix", "bisect", "table", "batch", "list", "report"}) {
     CHECK_THAT(help, Contains("\n  " + command + " "));
     CHECK(!result_of({command, "--help"}).out.empty());
   }
