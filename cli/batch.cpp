@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iostream>
 
@@ -16,14 +16,8 @@ namespace {
 constexpr std::array<const char*, 3> not_keys{"command", "id", "expect"};
 
 const CaseCommand& find_command(const Json& line) {
-  const auto commands = case_commands();
-  std::vector<std::string_view> names;
-  for (const auto& command : commands) names.push_back(command.name);
   if (!line.contains("command") || !line["command"].is_string()) throw InvalidInput("command: missing");
-  const std::string name = line["command"];
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw unknown_word("command", name, names);
-  return commands[static_cast<std::size_t>(found - names.begin())];
+  return find_case_command("command", line["command"].get<std::string>());
 }
 
 Json answer_line(Json line, Json& id) {

@@ -59,9 +59,11 @@ void CaseOptions::add_to(CLI::App& app, const std::vector<KeyGroup>& groups) {
   }
 }
 
-Case CaseOptions::read() const {
+Json CaseOptions::file() const { return case_file_.empty() ? Json::object() : io::read_toml(case_file_); }
+
+Case CaseOptions::over(const Json& members) const {
   Case input;
-  if (!case_file_.empty()) io::set_from_json(input, io::read_toml(case_file_));
+  io::set_from_json(input, members);
   for (const auto& [key, option] : options_)
     if (option->count() > 0) input.set(key->name, parse_value(*key, texts_.at(key)));
   return input;

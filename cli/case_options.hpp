@@ -15,8 +15,13 @@ class CaseOptions {
  public:
   void add_to(CLI::App& app, const std::vector<KeyGroup>& groups);
 
-  /// The case file, if any, with the flags that were given over it.
-  Case read() const;
+  /// The members of the case file; none without one.
+  Json file() const;
+
+  /// The members of a case file with the flags that were given over them.
+  Case over(const Json& members) const;
+
+  Case read() const { return over(file()); }
 
  private:
   std::string case_file_;

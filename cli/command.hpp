@@ -20,12 +20,13 @@ enum ExitStatus : int { done = 0, claim_fails = 1, bad_input = 2, run_unstable =
 struct CaseCommand {
   std::string_view name;
   std::string_view summary;
-  std::vector<KeyGroup> groups;  ///< whose keys it offers as flags
+  std::vector<KeyGroup> groups;  ///< whose keys it reads and offers as flags
   Json (*answer)(const Case& input, const study::Request& request);
   std::string (*describe)(const Json& answer);  ///< for people; absent for commands of `batch` alone
   bool (*holds)(const Json& answer) = nullptr;  ///< whether the claim that it checks holds; absent: it checks none
   /// Lines that lead to the answer, for --explain; absent: the command has no such flag.
   std::vector<std::string> (*explain)(const Case& input) = nullptr;
+  std::vector<std::string> columns = {};  ///< that `table` shows unless told others; empty: every plain result
 };
 
 CaseCommand dt_command();
@@ -34,6 +35,9 @@ CaseCommand bisect_command();
 
 /// Every command that answers a case, those of `batch` alone (`kernel`, `sums`) included.
 std::span<const CaseCommand> case_commands();
+
+/// The one of that name. Throws InvalidInput naming `what` was to name it, and those there are.
+const CaseCommand& find_case_command(std::string_view what, std::string_view name);
 
 /// `batch`: reads JSON lines from a file or, if `path` is empty, from standard input.
 int run_batch(const std::string& path);

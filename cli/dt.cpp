@@ -83,14 +83,15 @@ std::string describe(const Json& answer) {
 }  // namespace
 
 CaseCommand dt_command() {
-  return {"dt",
-          "the critical time step of a scheme on an infinite lattice",
-          {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time,
-           KeyGroup::growth},
-          study::time_step_answer,
-          describe,
-          nullptr,
-          study::explain_time_step};
+  return {.name = "dt",
+          .summary = "the critical time step of a scheme on an infinite lattice",
+          .groups = {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time,
+                     KeyGroup::growth},
+          .answer = study::time_step_answer,
+          .describe = describe,
+          .explain = study::explain_time_step,
+          .columns = {"critical_time_step", "courant_number", "verdict", "critical_mode.branch",
+                      "critical_mode.wave_vector"}};
 }
 
 }  // namespace sphstab::cli

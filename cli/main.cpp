@@ -7,6 +7,7 @@
 #include "cli/case_options.hpp"
 #include "cli/command.hpp"
 #include "cli/report.hpp"
+#include "cli/table.hpp"
 #include "io/document.hpp"
 #include "io/progress.hpp"
 
@@ -50,6 +51,7 @@ class Program {
     app_.set_version_flag("--version", "sphstab " SPHSTAB_VERSION);
     for (const CaseCommand& command : case_commands())
       if (command.describe != nullptr) add_case_command(command);
+    add_table();
     add_batch();
     add_list();
     add_report();
@@ -92,6 +94,17 @@ class Program {
       app->add_flag("--explain", explain_, "lead from the scheme to the result, line by line");
     actions_.push_back(
         {app, [this, command, options] { return run_case_command(command, options->read(), format_, explain_); }});
+  }
+
+  void add_table() {
+    CLI::App* app = add("table", "a stability table: a sweep over any keys, one row a case");
+    auto options = std::make_shared<TableOptions>();
+    options->add_to(*app);
+    add_format(*app, format_);
+    actions_.push_back({app, [this, options] {
+                          check_format(format_);
+                          return run_table(*options, format_);
+                        }});
   }
 
   void add_batch() {
@@ -157,9 +170,26 @@ class Program {
 std::span<const CaseCommand> case_commands() {
   static const std::array<CaseCommand, 5> commands{
       dt_command(), matrix_command(), bisect_command(),
-      CaseCommand{"kernel", "a kernel and its derivatives at a distance", {}, study::kernel_answer, nullptr},
-      CaseCommand{"sums", "Gray's lattice sums at a wave vector", {}, study::sums_answer, nullptr}};
+      CaseCommand{"kernel",
+                  "a kernel and its derivatives at a distance",
+                  {KeyGroup::discretisation, KeyGroup::distance},
+                  study::kernel_answer,
+                  nullptr},
+      CaseCommand{"sums",
+                  "Gray's lattice sums at a wave vector",
+                  {KeyGroup::discretisation, KeyGroup::mode, KeyGroup::lattice_sums},
+                  study::sums_answer,
+                  nullptr}};
   return commands;
+}
+
+const CaseCommand& find_case_command(std::string_view what, std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const CaseCommand& command : case_commands()) {
+    if (command.name == name) return command;
+    names.push_back(command.name);
+  }
+  throw unknown_word(what, name, names);
 }
 
 }  // namespace sphstab::cli

@@ -14,15 +14,19 @@ namespace {
 
 using ErrorHandler = nlohmann::detail::error_handler_t;
 
-std::string to_text(const Document& value) {
+constexpr const char* every_digit = "{}";
+
+std::string cell_text(const Document& value, const std::string& number_format) {
   if (value.is_null() || (value.is_number_float() && !std::isfinite(value.get<double>()))) return {};
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_number() && number_format != every_digit)
+    return fmt::format(fmt::runtime(number_format), value.get<double>());
   if (!value.is_array() || std::any_of(value.begin(), value.end(), [](const auto& v) { return v.is_structured(); }))
     return to_json_line(value);
   std::string text;
   for (const auto& element : value) {
     if (!text.empty()) text += ' ';
-    text += to_text(element);
+    text += cell_text(element, number_format);
   }
   return text;
 }
@@ -38,52 +42,35 @@ void flatten(const Document& object, const std::string& prefix, FlatRow& row) {
   }
 }
 
-std::vector<FlatRow> flat_rows(const Document& rows) {
-  std::vector<FlatRow> flat(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) flatten(rows[i], "", flat[i]);
-  return flat;
+FlatRow flat(const Document& object) {
+  FlatRow row;
+  flatten(object, "", row);
+  return row;
 }
 
 /// Every key of the rows, in the order of first appearance.
-std::vector<Column> all_columns(const std::vector<FlatRow>& rows) {
+std::vector<Column> all_columns(const Document& rows, const std::string& number_format) {
   std::vector<Column> columns;
   for (const auto& row : rows)
-    for (const auto& [key, value] : row)
+    for (const auto& [key, value] : flat(row))
       if (std::none_of(columns.begin(), columns.end(), [&name = key](const Column& c) { return c.key == name; }))
-        columns.push_back({key, key});
+        columns.push_back({key, key, number_format});
   return columns;
 }
 
 std::string cell(const FlatRow& row, const Column& column) {
   const auto found = std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == column.key; });
-  if (found == row.end()) return {};
-  const Document& value = found->second;
-  std::string text = to_text(value);
-  if (text.empty() || !value.is_number() || column.number_format == "{}") return text;
-  return fmt::format(fmt::runtime(column.number_format), value.get<double>());
-}
-
-Table select(const std::vector<FlatRow>& rows, const std::vector<Column>& columns) {
-  Table table;
-  for (const auto& column : columns) table.header.push_back(column.header);
-  for (const auto& row : rows) {
-    auto& cells = table.rows.emplace_back();
-    for (const auto& column : columns) cells.push_back(cell(row, column));
-  }
-  return table;
+  return found == row.end() ? std::string() : cell_text(found->second, column.number_format);
 }
 
 Table case_per_row(const Document& document) {
-  const auto rows = flat_rows(document.is_array() ? document : Document::array({document}));
-  return select(rows, all_columns(rows));
+  return to_table(document.is_array() ? document : Document::array({document}), every_digit);
 }
 
 Table key_per_row(const Document& document) {
   if (document.is_array()) return case_per_row(document);
-  FlatRow row;
-  flatten(document, "", row);
   Table table{{"key", "value"}, {}};
-  for (const auto& [key, value] : row) table.rows.push_back({key, to_text(value)});
+  for (const auto& [key, value] : flat(document)) table.rows.push_back({key, cell_text(value, every_digit)});
   return table;
 }
 
@@ -174,7 +161,20 @@ std::string latex_cell(const std::string& text) {
 
 }  // namespace
 
-Table select(const Document& rows, const std::vector<Column>& columns) { return select(flat_rows(rows), columns); }
+Table select(const Document& rows, const std::vector<Column>& columns) {
+  Table table;
+  for (const auto& column : columns) table.header.push_back(column.header);
+  for (const auto& object : rows) {
+    const FlatRow row = flat(object);
+    auto& cells = table.rows.emplace_back();
+    for (const auto& column : columns) cells.push_back(cell(row, column));
+  }
+  return table;
+}
+
+Table to_table(const Document& rows, const std::string& number_format) {
+  return select(rows, all_columns(rows, number_format));
+}
 
 std::string write(const Document& document, Format format) {
   switch (format) {
@@ -191,6 +191,28 @@ std::string write(const Document& document, Format format) {
 }
 
 std::string to_json_line(const Document& document) { return document.dump(-1, ' ', false, ErrorHandler::replace); }
+
+std::string to_text(const Table& table) {
+  std::vector<std::size_t> widths;
+  for (std::size_t column = 0; column < table.header.size(); ++column) {
+    widths.push_back(table.header[column].size());
+    for (const auto& row : table.rows) widths[column] = std::max(widths[column], row[column].size());
+  }
+  std::vector<bool> numeric;
+  for (std::size_t column = 0; column < widths.size(); ++column) numeric.push_back(is_numeric(table, column));
+  std::string out;
+  const auto append = [&](const std::vector<std::string>& cells) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::string padding(widths[i] - cells[i].size(), ' ');
+      line += (numeric[i] ? padding + cells[i] : cells[i] + padding) + "  ";
+    }
+    out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  };
+  append(table.header);
+  for (const auto& row : table.rows) append(row);
+  return out;
+}
 
 std::string to_csv(const Table& table) {
   std::string out;

@@ -34,6 +34,10 @@ struct Column {
 /// The chosen columns of an array of rows. A row without the key, or with null there, has an empty cell.
 Table select(const Document& rows, const std::vector<Column>& columns);
 
+/// Every flattened key of an array of objects, in the order of first appearance, with numbers in one format, in lists
+/// too.
+Table to_table(const Document& rows, const std::string& number_format = "{}");
+
 /// `document`, an object or an array of objects, in `format`, ending in a newline. In tables nested objects are
 /// flattened with dots, a list of plain values is separated by spaces, any deeper list is compact JSON, null is an
 /// empty cell. An array has one row an object, under the keys of all of them; a single object has one row in CSV, and
@@ -43,6 +47,8 @@ std::string write(const Document& document, Format format);
 /// The document on one line, without newline. Bytes that are no UTF-8 are replaced.
 std::string to_json_line(const Document& document);
 
+/// Aligned columns for people, two spaces apart; columns of numbers are aligned to the right.
+std::string to_text(const Table& table);
 /// RFC 4180 with newlines of one byte.
 std::string to_csv(const Table& table);
 /// A GitHub table; columns of numbers are aligned to the right.

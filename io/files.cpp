@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -22,16 +23,9 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void throw_errno() { throw std::system_error(errno, std::generic_category()); }
 
-/// Returns work(); what the system refuses it becomes an InvalidInput that names `path`.
-template <class Work>
-auto naming(const fs::path& path, const Work& work) {
-  try {
-    return work();
-  } catch (const std::system_error& error) {
-    fail(path, error.code().message());
-  }
-}
+}  // namespace
 
+/// An open file.
 class Descriptor {
  public:
   Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
@@ -45,6 +39,18 @@ class Descriptor {
  private:
   int value_;
 };
+
+namespace {
+
+/// Returns work(); what the system refuses it becomes an InvalidInput that names `path`.
+template <class Work>
+auto naming(const fs::path& path, const Work& work) {
+  try {
+    return work();
+  } catch (const std::system_error& error) {
+    fail(path, error.code().message());
+  }
+}
 
 /// Repeats a read or a write that a signal interrupted.
 template <class Transfer>
@@ -71,9 +77,20 @@ fs::path hidden_neighbour(const fs::path& path) {
   return path.parent_path() / fmt::format(".{}.{}.{}", path.filename().string(), ::getpid(), count++);
 }
 
+void write_all(int file, std::string_view text) {
+  while (!text.empty()) text.remove_prefix(transferred([&] { return ::write(file, text.data(), text.size()); }));
+}
+
+std::string read_all(int file) {
+  std::string text, block(65536, '\0');
+  while (const std::size_t count = transferred([&] { return ::read(file, block.data(), block.size()); }))
+    text.append(block, 0, count);
+  return text;
+}
+
 void write_to_disk(const fs::path& path, std::string_view text) {
   const Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
-  while (!text.empty()) text.remove_prefix(transferred([&] { return ::write(file.get(), text.data(), text.size()); }));
+  write_all(file.get(), text);
   if (::fsync(file.get()) != 0) throw_errno();
 }
 
@@ -87,31 +104,38 @@ fs::path resolved(const fs::path& path) {
   return full.has_filename() ? full : full.parent_path();
 }
 
+/// The place of a file that `path` names. Throws where no file can be put there.
+fs::path output_place(const fs::path& path, Existing existing) {
+  const fs::path target = resolved(path);
+  require_folder(target.parent_path());
+  if (fs::exists(target)) {
+    if (!fs::is_regular_file(target)) fail(path, "is no regular file");
+    if (existing == Existing::refuse) fail(path, "exists already");
+  }
+  return target;
+}
+
+/// The text up to the end of its last whole line.
+std::string_view whole_lines(std::string_view text) { return text.substr(0, text.find_last_of('\n') + 1); }
+
 }  // namespace
 
 std::string read_file(const fs::path& path) {
-  return naming(path, [&] {
-    const Descriptor file(path, O_RDONLY);
-    std::string text, block(65536, '\0');
-    while (const std::size_t count = transferred([&] { return ::read(file.get(), block.data(), block.size()); }))
-      text.append(block, 0, count);
-    return text;
-  });
+  return naming(path, [&] { return read_all(Descriptor(path, O_RDONLY).get()); });
 }
 
 void write_file(const fs::path& path, std::string_view text, Existing existing) {
   naming(path, [&] {
-    const fs::path target = resolved(path);
-    require_folder(target.parent_path());
-    if (fs::exists(target)) {
-      if (!fs::is_regular_file(target)) fail(path, "is no regular file");
-      if (existing == Existing::refuse) fail(path, "exists already");
-    }
+    const fs::path target = output_place(path, existing);
     const fs::path assembly = hidden_neighbour(target);
     const Discard discard{assembly};
     write_to_disk(assembly, text);
     fs::rename(assembly, target);
   });
+}
+
+void check_output(const fs::path& path, Existing existing) {
+  naming(path, [&] { output_place(path, existing); });
 }
 
 OutputFolder::OutputFolder(const fs::path& path, Existing existing) {
@@ -153,6 +177,37 @@ void OutputFolder::commit() {
         fs::rename(entry.path(), target);
     }
   });
+}
+
+Journal::Journal(const fs::path& path, std::string_view first, Existing other) : path_(path) {
+  naming(path_, [&] {
+    file_ = std::make_unique<Descriptor>(path_, O_RDWR | O_CREAT | O_APPEND);
+    if (::flock(file_->get(), LOCK_EX | LOCK_NB) != 0) fail(path_, "is in use by another run");
+    const std::string begin = std::string(first) + '\n', text = read_all(file_->get());
+    const bool same = text.starts_with(begin) || begin.starts_with(text);
+    if (!same && other == Existing::refuse) fail(path_, "was begun by another run, not by this one");
+    std::string_view kept = same ? whole_lines(text) : std::string_view();
+    if (::ftruncate(file_->get(), static_cast<off_t>(kept.size())) != 0) throw_errno();
+    if (kept.empty()) return write_all(file_->get(), begin);
+    for (kept.remove_prefix(begin.size()); !kept.empty(); kept.remove_prefix(lines_.back().size() + 1))
+      lines_.emplace_back(kept.substr(0, kept.find('\n')));
+  });
+}
+
+Journal::~Journal() = default;
+
+void Journal::append(std::string_view line) {
+  naming(path_, [&] {
+    write_all(file_->get(), std::string(line) + '\n');
+    const auto now = std::chrono::steady_clock::now();
+    if (now - synchronised_ < std::chrono::seconds(1)) return;
+    synchronised_ = now;
+    if (::fdatasync(file_->get()) != 0) throw_errno();
+  });
+}
+
+void Journal::remove() {
+  naming(path_, [&] { fs::remove(path_); });
 }
 
 }  // namespace sphstab::io

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sphstab::io {
 
@@ -16,6 +19,9 @@ std::string read_file(const std::filesystem::path& path);
 /// Writes `text` to `path`, so that the file appears whole or not at all, whatever happens to the program or the
 /// machine. Throws InvalidInput naming the path and the reason, and then leaves nothing behind.
 void write_file(const std::filesystem::path& path, std::string_view text, Existing existing = Existing::refuse);
+
+/// Throws what write_file would throw for the place alone, so that it is known before the work.
+void check_output(const std::filesystem::path& path, Existing existing = Existing::refuse);
 
 /// A folder of results that appears when it is complete. The files are assembled in a hidden folder beside it; commit()
 /// moves them in, among the files that are there already if the folder existed; without commit() nothing remains.
@@ -38,6 +44,36 @@ class OutputFolder {
  private:
   std::filesystem::path path_;
   std::filesystem::path assembly_;
+};
+
+class Descriptor;
+
+/// A file of lines that grows while long work goes on and outlives its interruption: what append() was given is kept
+/// when the program is killed, and all but the last second of it when the machine goes down.
+class Journal {
+ public:
+  /// Begins the journal with the line `first`, which says what work it is of, or opens the one that an interrupted run
+  /// of the same work left; the end of it that is no whole line is dropped. Throws InvalidInput naming the path where
+  /// it cannot be written, another process has it open or, unless `other` is `replace`, it is of other work.
+  Journal(const std::filesystem::path& path, std::string_view first, Existing other = Existing::refuse);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// The lines after the first that were there when it was opened.
+  const std::vector<std::string>& lines() const { return lines_; }
+
+  /// Adds a line, given without its end. Throws InvalidInput naming the path.
+  void append(std::string_view line);
+
+  /// Removes the file: the work is done.
+  void remove();
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<Descriptor> file_;
+  std::vector<std::string> lines_;
+  std::chrono::steady_clock::time_point synchronised_;  ///< with the disk
 };
 
 }  // namespace sphstab::io

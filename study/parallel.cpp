@@ -9,7 +9,9 @@
 
 namespace sphstab::study {
 
-void parallel_for(int count, const std::function<void(int)>& work) {
+int all_cores() { return std::max(static_cast<int>(std::thread::hardware_concurrency()), 1); }
+
+void parallel_for(int count, const std::function<void(int)>& work, int threads) {
   std::atomic<int> next{0};
   std::vector<std::exception_ptr> errors(count);
   const auto worker = [&] {
@@ -21,9 +23,9 @@ void parallel_for(int count, const std::function<void(int)>& work) {
       }
     }
   };
-  std::vector<std::thread> threads(std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, count));
-  for (auto& thread : threads) thread = std::thread(worker);
-  for (auto& thread : threads) thread.join();
+  std::vector<std::thread> workers(std::min(threads, count));
+  for (auto& thread : workers) thread = std::thread(worker);
+  for (auto& thread : workers) thread.join();
   for (const auto& error : errors)
     if (error) std::rethrow_exception(error);
 }

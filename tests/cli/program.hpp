@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sys/types.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "io/scratch_folder.hpp"
 
 /// The real program, run as a user runs it.
 namespace sphstab::cli_test {
@@ -19,6 +23,19 @@ struct Outcome {
   Json json() const { return Json::parse(out); }
 };
 
+/// `sphstab` while it runs. Its end must be waited for.
+class Process {
+ public:
+  explicit Process(const Arguments& arguments, const std::string& input = "");
+
+  void send(int signal) const;
+  Outcome wait() const;
+
+ private:
+  ScratchFolder folder_;
+  pid_t process_ = 0;
+};
+
 /// Runs `sphstab` with these arguments and this standard input.
 Outcome run(const Arguments& arguments, const std::string& input = "");
 
@@ -31,5 +48,11 @@ std::string complaint_about(const Arguments& arguments);
 
 /// `command` on a complete case of tl-linear with `more` behind it.
 Arguments on_case(const std::string& command, const Arguments& more = {});
+
+/// The lines of a text that ends in a newline, without their ends.
+std::vector<std::string> lines_of(const std::string& text);
+
+/// The cells of a line of CSV.
+std::vector<std::string> cells_of(const std::string& line);
 
 }  // namespace sphstab::cli_test

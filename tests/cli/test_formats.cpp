@@ -30,32 +30,6 @@ Arguments in_format(Arguments arguments, const std::string& format) {
   return arguments;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
-    lines.push_back(text.substr(begin, end - begin));
-  return lines;
-}
-
-/// The cells of a line of CSV.
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') {
-      if (quoted && line[i + 1] == '"')
-        cells.back() += line[++i];
-      else
-        quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += line[i];
-    }
-  }
-  return cells;
-}
-
 double number(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -204,7 +178,7 @@ TEST_CASE("tables of list have a row for each name", "[fast]") {
 TEST_CASE("help and version are results, and help shows the flag of every key with its default", "[fast]") {
   CHECK_THAT(result_of({"--version"}).out, StartsWith("sphstab "));
   const std::string help = result_of({"--help"}).out;
-  for (const std::string command : {"dt", "matrix", "bisect", "batch", "list", "report"}) {
+  for (const std::string command : {"dt", "matrix", "bisect", "table", "batch", "list", "report"}) {
     CHECK_THAT(help, Contains("\n  " + command + " "));
     CHECK(!result_of({command, "--help"}).out.empty());
   }

@@ -111,6 +111,21 @@ TEST_CASE("chosen columns have their own headers and number formats", "[fast]") 
   CHECK(table.rows[1] == std::vector<std::string>{"s", "0.250", "", "0.25"});
 }
 
+TEST_CASE("a table of all keys has its numbers in one format, those in lists and objects too", "[fast]") {
+  const Document rows = {{{"a", 1.0 / 3.0}, {"b", {{"c", {0.125, 2.0 / 3.0}}}}}, {{"d", "word"}, {"a", nullptr}}};
+  const Table table = to_table(rows, "{:.3g}");
+  CHECK(table.header == std::vector<std::string>{"a", "b.c", "d"});
+  CHECK(table.rows == std::vector<std::vector<std::string>>{{"0.333", "0.125 0.667", ""}, {"", "", "word"}});
+  CHECK(to_table(rows).rows[0][0] == "0.3333333333333333");
+}
+
+TEST_CASE("text has aligned columns, those of numbers to the right, and no space at the end of a line", "[fast]") {
+  CHECK(to_text({{"name", "n", "long number"}, {{"a", "1", "-2.5"}, {"longer", "10", ""}}}) ==
+        "name     n  long number\n"
+        "a        1         -2.5\n"
+        "longer  10\n");
+}
+
 TEST_CASE("the formats have the names that users write", "[fast]") {
   CHECK(from_name<Format>("format", "latex") == Format::latex);
   CHECK_THROWS_WITH(from_name<Format>("format", "yaml"), Catch::EndsWith("Allowed: json, csv, markdown, latex"));

@@ -158,3 +158,79 @@ TEST_CASE("an output folder takes each name once", "[fast]") {
   output.write("a", "1");
   CHECK_THROWS_WITH(output.write("a", "2"), Contains("out/a: is written twice"));
 }
+
+TEST_CASE("a place where no file can be put is known before the file is written", "[fast]") {
+  const ScratchFolder folder;
+  write_file(folder / "old", "");
+  check_output(folder / "new");
+  check_output(folder / "old", Existing::replace);
+  CHECK_THROWS_WITH(check_output(folder / "old"), Contains("old: exists already"));
+  CHECK_THROWS_WITH(check_output(folder / "missing/a"), Contains("missing: no such folder"));
+  CHECK_THROWS_WITH(check_output(folder.path(), Existing::replace), Contains("is no regular file"));
+  CHECK(folder.names() == Names{"old"});
+}
+
+TEST_CASE("a journal gives back the lines of the same work until it is removed", "[fast]") {
+  const ScratchFolder folder;
+  {
+    Journal journal(folder / "j", "work");
+    CHECK(journal.lines().empty());
+    journal.append("one");
+    journal.append("");
+    CHECK(read_file(folder / "j") == "work\none\n\n");
+  }
+  {
+    Journal journal(folder / "j", "work");
+    CHECK(journal.lines() == Names{"one", ""});
+    journal.append("three");
+  }
+  Journal journal(folder / "j", "work", Existing::replace);
+  CHECK(journal.lines() == Names{"one", "", "three"});
+  journal.remove();
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("the end of a journal that is no whole line is dropped, and the next line stands alone", "[fast]") {
+  const ScratchFolder folder;
+  for (const std::string torn : {"", "w", "work"}) {
+    write_file(folder / "j", torn, Existing::replace);
+    CHECK(Journal(folder / "j", "work").lines().empty());
+    CHECK(read_file(folder / "j") == "work\n");
+  }
+  write_file(folder / "j", "work\none\ntw", Existing::replace);
+  {
+    Journal journal(folder / "j", "work");
+    CHECK(journal.lines() == Names{"one"});
+    journal.append("three");
+  }
+  CHECK(read_file(folder / "j") == "work\none\nthree\n");
+}
+
+TEST_CASE("a journal of other work is refused, or begun anew if asked", "[fast]") {
+  const ScratchFolder folder;
+  for (const std::string other : {"works\none\n", "wor\n", "\n", "play"}) {
+    write_file(folder / "j", other, Existing::replace);
+    CHECK_THROWS_WITH(Journal(folder / "j", "work"),
+                      (folder / "j").string() + ": was begun by another run, not by this one");
+    CHECK(read_file(folder / "j") == other);
+    CHECK(Journal(folder / "j", "work", Existing::replace).lines().empty());
+    CHECK(read_file(folder / "j") == "work\n");
+  }
+}
+
+TEST_CASE("a journal is written by one at a time", "[fast]") {
+  const ScratchFolder folder;
+  {
+    const Journal first(folder / "j", "work");
+    CHECK_THROWS_WITH(Journal(folder / "j", "work"), Contains("j: is in use by another run"));
+  }
+  CHECK(Journal(folder / "j", "work").lines().empty());
+}
+
+TEST_CASE("a journal that cannot be written says so", "[fast]") {
+  const ScratchFolder folder;
+  CHECK_THROWS_WITH(Journal(folder / "missing/j", "work"), Contains("missing/j: No such file or directory"));
+  Journal journal(folder / "j", "work");
+  const FullDisk full(1000);
+  CHECK_THROWS_WITH(journal.append(std::string(2000, 'x')), Contains("j: File too large"));
+}
