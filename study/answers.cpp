@@ -95,6 +95,7 @@ Json time_step_answer(const Case& input, const Request& request) {
   answer["bulk_only"] = true;
   answer["note"] = bulk_note;
   answer["symbol_maximum"] = modes.symbol_maximum();
+  answer["neighbours"] = lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule).size();
   if (step.is_number()) {
     const double p_wave_speed =
         std::sqrt(problem.material.lame(problem.plane).p_wave_modulus() / problem.material.density());
