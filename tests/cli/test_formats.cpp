@@ -164,7 +164,10 @@ TEST_CASE("list knows every topic, and what it lists is accepted", "[fast]") {
   }
   for (const Json& kernel : all["kernels"]) result_of(on_case("dt", {"--kernel", kernel["name"]}));
   for (const Json& lattice : all["lattices"])
-    result_of(on_case("dt", {"--dimension", lattice["dimension"].dump(), "--lattice", lattice["name"]}));
+    if (lattice["name"] != "custom")
+      result_of(on_case("dt", {"--dimension", lattice["dimension"].dump(), "--lattice", lattice["name"]}));
+  CHECK(all["lattices"].back() == Json{{"name", "custom"}, {"parameters", {"primitive_vectors"}}});
+  result_of(on_case("dt", {"--lattice", "custom", "--primitive-vectors", "1,0,0,2", "--h-over-spacing", "1.6"}));
   for (const Json& integrator : all["integrators"]) result_of(on_case("dt", {"--integrator", integrator["name"]}));
 }
 
