@@ -12,6 +12,7 @@
 
 #include "analysis/acoustic_form.hpp"
 #include "analysis/gradient_symbol.hpp"
+#include "analysis/irreducible_domain.hpp"
 #include "analysis/zone_maximum.hpp"
 #include "analysis/zone_zeros.hpp"
 #include "model/brillouin_zone.hpp"
@@ -97,13 +98,16 @@ BulkModes<Dim>::BulkModes(const Problem<Dim>& problem) : steps_(problem) {
   const AcousticForm<Dim> form(problem, symbol.consistency());
   const Tensor<Dim> Q = form.longitudinal();
   const Vector<Dim> q = Q.template selfadjointView<Eigen::Lower>().eigenvalues();
-  const auto of_symbol = zone_maximum<Dim>(symbol.series(), Tensor<Dim>::Identity());
+  const auto search = [&](const Tensor<Dim>& of_form) {
+    return zone_maximum<Dim>(symbol.series(), of_form, irreducible_domain(problem.lattice, symbol, of_form));
+  };
+  const auto of_symbol = search(Tensor<Dim>::Identity());
   symbol_maximum_ = std::sqrt(of_symbol.value);
   require_in_range(std::isfinite(of_symbol.upper * q.cwiseAbs().maxCoeff()));
 
   const auto maximum = [&](const Tensor<Dim>& of_form) {
     const bool isotropic = of_form == of_form(0, 0) * Tensor<Dim>::Identity() && of_form(0, 0) > 0.0;
-    return isotropic ? scaled(of_symbol, of_form(0, 0)) : zone_maximum(symbol.series(), of_form);
+    return isotropic ? scaled(of_symbol, of_form(0, 0)) : search(of_form);
   };
   const BrillouinZone<Dim> zone(problem.lattice);
   const auto wave_vector = [&](const ZoneMaximum<Dim>& found) {
@@ -118,7 +122,7 @@ BulkModes<Dim>::BulkModes(const Problem<Dim>& problem) : steps_(problem) {
   if (q.maxCoeff() >= form.shear) raise(Branch::longitudinal, maximum(Q));
   if (Dim > 1 && q.minCoeff() < form.shear) raise(Branch::transverse, maximum(form.shear * Tensor<Dim>::Identity()));
   if (q.minCoeff() < 0.0)
-    if (const auto found = zone_maximum<Dim>(symbol.series(), -Q); found.lower > 0.0)
+    if (const auto found = search(-Q); found.lower > 0.0)
       range_.lowest = {wave_vector(found), Branch::longitudinal, -found.value, -found.upper, -found.lower};
 }
 
@@ -179,7 +183,8 @@ std::optional<double> published_bound(const Problem<Dim>& problem) {
 template <int Dim>
 ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem) {
   const GradientSymbol<Dim> symbol(problem);
-  const auto zeros = zone_zeros(symbol.series());
+  const auto zeros =
+      zone_zeros(symbol.series(), irreducible_domain<Dim>(problem.lattice, symbol, Tensor<Dim>::Identity()));
   const BrillouinZone<Dim> zone(problem.lattice);
   ZeroEnergyModes<Dim> modes{{}, zeros.complete};
   for (const auto& phases : zeros.phases) modes.wave_vectors.push_back(zone.in_first_zone(symbol.wave_vector(phases)));
