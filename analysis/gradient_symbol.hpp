@@ -19,6 +19,11 @@ class GradientSymbol {
   /// D(k), 1 / length; k in radians per length.
   Vector<Dim> operator()(const Vector<Dim>& wave_vector) const { return series_(phases(wave_vector)); }
 
+  /// ∂D_i/∂k_j at (i, j), dimensionless.
+  Tensor<Dim> jacobian(const Vector<Dim>& wave_vector) const {
+    return series_.jet(phases(wave_vector)).jacobian * primitive_.transpose();
+  }
+
   /// D as a series in the phases θ_i = k·a_i.
   const SineSeries<Dim>& series() const { return series_; }
   Vector<Dim> phases(const Vector<Dim>& wave_vector) const { return primitive_.transpose() * wave_vector; }
