@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/figure.hpp"
 #include "model/keys.hpp"
 #include "study/answers.hpp"
 
@@ -24,10 +25,13 @@ struct CaseCommand {
   Json (*answer)(const Case& input, const study::Request& request);
   std::string (*describe)(const Json& answer);  ///< for people; absent for commands of `batch` alone
   bool (*holds)(const Json& answer) = nullptr;  ///< whether the claim that it checks holds; absent: it checks none
+  Json (*rows)(const Json& answer) = nullptr;   ///< the answer as the rows of a table; absent: it has one row
+  io::LineFigure (*figure)(const Case& input) = nullptr;  ///< what --figure draws; absent: there is no such option
 };
 
 CaseCommand dt_command();
 CaseCommand matrix_command();
+CaseCommand dispersion_command();
 CaseCommand bisect_command();
 
 /// Every command that answers a case, those of `batch` alone (`kernel`, `sums`) included.

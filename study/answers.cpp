@@ -23,9 +23,7 @@ constexpr const char* bulk_note =
 
 template <int Dim>
 Json to_json(const analysis::CriticalMode<Dim>& mode) {
-  return {{"wave_vector", components<Dim>(mode.wave_vector)},
-          {"branch", name_of(mode.branch)},
-          {"omega", mode.omega}};
+  return {{"wave_vector", components<Dim>(mode.wave_vector)}, {"branch", name_of(mode.branch)}, {"omega", mode.omega}};
 }
 
 /// The verdict with what belongs to it: step and bracket, or growth rate, and the critical mode.

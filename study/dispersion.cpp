@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "analysis/dispersion.hpp"
 #include "model/band_path.hpp"
@@ -73,7 +72,9 @@ PathPoints<Dim> points_along(const BandPath<Dim>& path, int count) {
     for (std::size_t i = 1; i < stretch.size(); ++i)
       lengths.push_back((stretch[i].wave_vector - stretch[i - 1].wave_vector).norm());
   const int least = static_cast<int>(lengths.size() + path.stretches.size());
-  if (count < least) throw InvalidInput(fmt::format("path_points: {} is not at least {}, the labelled points of the path", count, least));
+  if (count < least)
+    throw InvalidInput(
+        fmt::format("path_points: {} is not at least {}, the labelled points of the path", count, least));
   const auto steps = shared_steps(lengths, count - static_cast<int>(path.stretches.size()));
 
   PathPoints<Dim> points;
@@ -166,24 +167,154 @@ Json dispersion_answer(const Case& input, const Request& request) {
   return {{"points", std::move(points)}};
 }
 
-/// What the figure shows of a branch: its frequency, or its growth rate below zero.
+/// What the figure shows of a wave: its frequency, or its growth rate below zero.
 double height(double omega_squared, double growth_rate) {
   return omega_squared < 0.0 ? -growth_rate : std::sqrt(omega_squared);
 }
 
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();
-
-/// The curve of a branch, and that of the continuum, D = k.
+/// Heights of the waves of the continuum with the same base state, D = k, and of the lattice, in units of c_p/Δp.
 template <int Dim>
-struct BranchCurves {
-  io::Curve discrete;
-  io::Curve continuum;
+class Heights {
+ public:
+  explicit Heights(const Problem<Dim>& problem)
+      : relation_(problem),
+        continuum_(problem, Tensor<Dim>::Identity()),
+        steps_(problem),
+        unit_(std::sqrt(problem.material.lame(problem.plane).p_wave_modulus() / problem.material.density()) /
+              problem.lattice.spacing()) {}
+
+  double of_lattice(analysis::Branch branch, const Vector<Dim>& k) const {
+    const auto waves = relation_(k);
+    const auto wave = std::find_if(waves.begin(), waves.end(), [=](const auto& w) { return w.branch == branch; });
+    return height(wave->omega_squared, wave->growth_rate) / unit_;
+  }
+  double of_continuum(analysis::Branch branch, const Vector<Dim>& k) const {
+    const double omega_squared =
+        branch == analysis::Branch::longitudinal ? continuum_.longitudinal(k) : continuum_.transverse(k);
+    return height(omega_squared, steps_(omega_squared).continuous_growth_rate()) / unit_;
+  }
+
+ private:
+  analysis::DispersionRelation<Dim> relation_;
+  analysis::AcousticForm<Dim> continuum_;
+  analysis::ModeSteps steps_;
+  double unit_;
 };
+
+/// The curve of `height_at` along the path, with gaps at its breaks.
+template <int Dim, class Height>
+io::Curve curve_along(const PathPoints<Dim>& points, const Height& height_at) {
+  io::Curve curve;
+  for (const auto& run : points) {
+    for (const auto& at : run) curve.points.emplace_back(at.distance, height_at(at.wave_vector));
+    curve.points.emplace_back(run.back().distance, std::numeric_limits<double>::quiet_NaN());
+  }
+  return curve;
+}
+
+/// Gaps where a curve leaves what the others need.
+void clip(io::Curve& curve, double low, double high) {
+  for (auto& [x, y] : curve.points)
+    if (y < low || y > high) y = std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The labelled points; two at one place are the ends of a break.
+template <int Dim>
+std::vector<io::Mark> marks_of(const PathPoints<Dim>& points) {
+  std::vector<io::Mark> marks;
+  for (const auto& run : points)
+    for (const auto& at : run) {
+      if (at.label.empty()) continue;
+      if (!marks.empty() && marks.back().x == at.distance)
+        marks.back().label += "|" + at.label;
+      else
+        marks.push_back({at.distance, at.label});
+    }
+  return marks;
+}
 
 template <int Dim>
 std::string title_of(const Problem<Dim>& problem) {
-  return fmt::format("{} lattice, {}, h = {:.4g} Δp, {}, ν = {:.4g}{}", name_of(problem.lattice.kind()),
+  return fmt::format("{} lattice, {} kernel, h = {:.4g} Δp{}, {}, ν = {:.4g}", name_of(problem.lattice.kind()),
                      name_of(problem.kernel.family()), problem.kernel.smoothing_length() / problem.lattice.spacing(),
-                     name_of(problem.scheme.formulation), problem.material.poisson_ratio(),
-                     problem.neighbour_rule == NeighbourRule::nearest ? ", nearest neighbours" : "");
+                     problem.neighbour_rule == NeighbourRule::nearest ? ", nearest neighbours" : "",
+                     name_of(problem.scheme.formulation), problem.material.poisson_ratio());
 }
+
+template <int Dim>
+io::LineFigure band_figure(const Case& input) {
+  using analysis::Branch;
+  const auto problem = make_problem<Dim>(input);
+  const auto points = path_points(input, problem.lattice);
+  const Heights<Dim> heights(problem);
+  const std::vector<Branch> branches =
+      Dim == 1 ? std::vector{Branch::longitudinal} : std::vector{Branch::longitudinal, Branch::transverse};
+
+  io::LineFigure figure;
+  double low = 0.0, high = 0.0;
+  for (const Branch branch : branches) {
+    figure.curves.push_back(curve_along(points, [&](const Vector<Dim>& k) { return heights.of_lattice(branch, k); }));
+    figure.curves.back().label =
+        fmt::format("{}{}", name_of(branch), Dim == 3 && branch == Branch::transverse ? " (two branches)" : "");
+    for (const auto& [distance, height] : figure.curves.back().points) {
+      low = std::fmin(low, height);
+      high = std::fmax(high, height);
+    }
+  }
+  for (const Branch branch : branches) {
+    auto curve = curve_along(points, [&](const Vector<Dim>& k) { return heights.of_continuum(branch, k); });
+    clip(curve, low, high);
+    curve.label = fmt::format("{} in the continuum", name_of(branch));
+    curve.style = io::CurveStyle::dashed;
+    figure.curves.push_back(std::move(curve));
+  }
+  figure.title = title_of(problem);
+  figure.x_label = "wave vector";
+  figure.y_label = low < 0.0 ? "ω Δp / c_p; below zero the growth rate" : "ω Δp / c_p";
+  figure.x_ticks = marks_of(points);
+  for (const auto& tick : figure.x_ticks) figure.vertical_lines.push_back({tick.x, ""});
+  return figure;
+}
+
+}  // namespace
+
+Json dispersion_answer(const Case& input, const Request& request) {
+  return in_dimension(input, [&](auto dimension) { return dispersion_answer<dimension()>(input, request); });
+}
+
+Json dispersion_rows(const Json& answer) {
+  Json rows = Json::array();
+  for (const Json& point : answer["points"]) {
+    Json row;
+    const auto add_vector = [&row](const std::string& name, const Json& vector, std::size_t size) {
+      for (std::size_t axis = 0; axis < size; ++axis)
+        row[name + "xyz"[axis]] = vector.is_null() ? Json() : vector[axis];
+    };
+    const Json& k = point["wave_vector"];
+    add_vector("k", k, k.size());
+    if (point.contains("distance")) {
+      row["distance"] = point["distance"];
+      row["label"] = point.contains("label") ? point["label"] : Json();
+    }
+    row["growth_rate"] = point["growth_rate"];
+    for (std::size_t i = 0; i < point["branches"].size(); ++i) {
+      const auto name = [i](std::string_view key) { return fmt::format("{}_{}", key, i + 1); };
+      row[name("branch")] = point["branches"][i];
+      row[name("omega_squared")] = point["omega_squared"][i][0];
+      row[name("omega_squared") + "_im"] = point["omega_squared"][i][1];
+      row[name("phase_speed")] = point["phase_speed"][i];
+      row[name("group_speed")] = point["group_speed"][i];
+      add_vector(name("group_velocity") + "_", point["group_velocity"][i], k.size());
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+io::LineFigure band_figure(const Case& input) {
+  if (const auto key = extent_of(input); key.extent != Extent::path)
+    throw InvalidInput(fmt::format("figure: shows the bands along a path, and cannot be given with {}", key.name));
+  return in_dimension(input, [&](auto dimension) { return band_figure<dimension()>(input); });
+}
+
+}  // namespace sphstab::study

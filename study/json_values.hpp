@@ -22,7 +22,7 @@ Overloaded(Handlers...) -> Overloaded<Handlers...>;
 
 /// Calls `answer` with the dimension as a compile-time constant: the one place where a run-time dimension becomes one.
 template <class Answer>
-Json in_dimension(const Case& input, const Answer& answer) {
+auto in_dimension(const Case& input, const Answer& answer) {
   switch (input.dimension()) {
     case 1:
       return answer(std::integral_constant<int, 1>());

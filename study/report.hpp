@@ -28,4 +28,7 @@ const ReportMaker& find_report(std::string_view name);
 /// without kernel normalisation, against H/Δ.
 Report zhang_plate_report(const Progress& progress);
 
+/// The bands of every named lattice along its standard path, and of a compressed base state that grows.
+Report band_report(const Progress& progress);
+
 }  // namespace sphstab::study
