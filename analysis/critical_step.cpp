@@ -15,6 +15,7 @@
 #include "analysis/in_range.hpp"
 #include "analysis/zone_maximum.hpp"
 #include "analysis/zone_zeros.hpp"
+#include "model/brillouin_zone.hpp"
 #include "model/lattice_index.hpp"
 
 namespace sphstab::analysis {
@@ -36,22 +37,6 @@ std::vector<LatticeIndex<Dim>> indices_below(std::string_view key, const Lattice
 
 /// Components within this of each other, relative to |b|, count as equal when equivalent wave vectors are ordered.
 constexpr double same_component = 1e-9;
-
-/// The representative of a class of equivalent wave vectors: the shortest, then the lexicographically largest.
-template <int Dim>
-Vector<Dim> in_first_zone(const Tensor<Dim>& reciprocal, const Vector<Dim>& wave_vector) {
-  const double tolerance = same_component * reciprocal.norm();
-  // Shifts by up to two reciprocal vectors reach the Wigner-Seitz cell from [−½, ½) b_i of any lattice kind.
-  const LatticeIndex<Dim> shifts = LatticeIndex<Dim>::Constant(2);
-  Vector<Dim> best = wave_vector;
-  for_each_index<Dim>(-shifts, shifts, [&](const LatticeIndex<Dim>& n) {
-    const Vector<Dim> k = wave_vector + reciprocal * n.template cast<double>();
-    double preference = best.norm() - k.norm();
-    for (int axis = 0; axis < Dim && std::abs(preference) <= tolerance; ++axis) preference = k[axis] - best[axis];
-    if (preference > tolerance) best = k;
-  });
-  return best;
-}
 
 template <int Dim>
 ZoneMaximum<Dim> scaled(ZoneMaximum<Dim> maximum, double factor) {
@@ -115,8 +100,9 @@ BulkModes<Dim>::BulkModes(const Problem<Dim>& problem) : steps_(problem) {
     const bool isotropic = of_form == of_form(0, 0) * Tensor<Dim>::Identity() && of_form(0, 0) > 0.0;
     return isotropic ? scaled(of_symbol, of_form(0, 0)) : zone_maximum(symbol.series(), of_form);
   };
+  const BrillouinZone<Dim> zone(problem.lattice);
   const auto wave_vector = [&](const ZoneMaximum<Dim>& found) {
-    return in_first_zone<Dim>(problem.lattice.reciprocal_vectors(), symbol.wave_vector(found.phases));
+    return zone.in_first_zone(symbol.wave_vector(found.phases));
   };
   const auto raise = [&](Branch branch, const ZoneMaximum<Dim>& found) {
     const ExtremeMode<Dim> before = range_.highest;
@@ -189,9 +175,9 @@ template <int Dim>
 ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem) {
   const GradientSymbol<Dim> symbol(problem);
   const auto zeros = zone_zeros(symbol.series());
+  const BrillouinZone<Dim> zone(problem.lattice);
   ZeroEnergyModes<Dim> modes{{}, zeros.complete};
-  for (const auto& phases : zeros.phases)
-    modes.wave_vectors.push_back(in_first_zone<Dim>(problem.lattice.reciprocal_vectors(), symbol.wave_vector(phases)));
+  for (const auto& phases : zeros.phases) modes.wave_vectors.push_back(zone.in_first_zone(symbol.wave_vector(phases)));
   const double tolerance = same_component * problem.lattice.reciprocal_vectors().norm();
   std::sort(modes.wave_vectors.begin(), modes.wave_vectors.end(),
             [&](const Vector<Dim>& left, const Vector<Dim>& right) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/gradient_symbol.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
+
+#include "model/lattice_reduction.hpp"
 
 namespace sphstab::analysis {
 namespace {
@@ -29,15 +31,16 @@ double normalisation_sum(const Problem<Dim>& problem, const std::vector<LatticeN
 }
 
 template <int Dim>
-SineSeries<Dim> symbol_series(const Problem<Dim>& problem) {
+SineSeries<Dim> symbol_series(const Problem<Dim>& problem, const Tensor<Dim>& basis) {
   const auto neighbours = lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule);
   const double factor = -2.0 * problem.lattice.cell_volume() / normalisation_sum(problem, neighbours);
   std::vector<SineTerm<Dim>> terms;
   double coefficient_error = 0.0;
   for (const auto& d : neighbours) {
-    if (!in_upper_half<Dim>(d.index)) continue;
+    const LatticeIndex<Dim> frequency = lattice_coordinates<Dim>(basis, d.position);
+    if (!in_upper_half<Dim>(frequency)) continue;
     const double slope = problem.kernel.slope(d.distance);
-    terms.push_back({d.index, factor * slope / d.distance * d.position});
+    terms.push_back({frequency, factor * slope / d.distance * d.position});
     // A handful of roundings of the product, and those of r/h, which matter where W' falls steeply to the support.
     coefficient_error += few_roundings * std::abs(factor) *
                          (std::abs(slope) + d.distance * std::abs(problem.kernel.curvature(d.distance)));
@@ -49,13 +52,13 @@ SineSeries<Dim> symbol_series(const Problem<Dim>& problem) {
 
 template <int Dim>
 GradientSymbol<Dim>::GradientSymbol(const Problem<Dim>& problem)
-    : primitive_(problem.lattice.primitive_vectors()),
-      wave_vectors_of_phases_(problem.lattice.reciprocal_vectors() / (2.0 * std::numbers::pi)),
+    : basis_(reduced_basis<Dim>(problem.lattice.primitive_vectors())),
+      wave_vectors_of_phases_(basis_.inverse().transpose()),
       consistency_(Tensor<Dim>::Zero()),
       weight_sum_(0.0),
-      series_(symbol_series(problem)) {
+      series_(symbol_series<Dim>(problem, basis_)) {
   for (const auto& term : series_.terms()) {
-    consistency_ += problem.lattice.site(term.frequency) * term.coefficient.transpose();
+    consistency_ += basis_ * term.frequency.template cast<double>() * term.coefficient.transpose();
     weight_sum_ += term.coefficient.norm();
   }
 }

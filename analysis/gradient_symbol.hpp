@@ -21,12 +21,13 @@ class GradientSymbol {
 
   /// ∂D_i/∂k_j at (i, j), dimensionless.
   Tensor<Dim> jacobian(const Vector<Dim>& wave_vector) const {
-    return series_.jet(phases(wave_vector)).jacobian * primitive_.transpose();
+    return series_.jet(phases(wave_vector)).jacobian * basis_.transpose();
   }
 
-  /// D as a series in the phases θ_i = k·a_i.
+  /// D as a series in the phases θ_i = k·a_i of a reduced basis a_i, in which its frequencies are the smallest whatever
+  /// basis the lattice is given in: searches over the zone cost more the higher they are.
   const SineSeries<Dim>& series() const { return series_; }
-  Vector<Dim> phases(const Vector<Dim>& wave_vector) const { return primitive_.transpose() * wave_vector; }
+  Vector<Dim> phases(const Vector<Dim>& wave_vector) const { return basis_.transpose() * wave_vector; }
   Vector<Dim> wave_vector(const Vector<Dim>& phases) const { return wave_vectors_of_phases_ * phases; }
 
   /// L = −V Σ d ⊗ ∇W (/ N), dimensionless: SPH returns H L for the gradient of u = H x. The identity up to quadrature
@@ -37,7 +38,7 @@ class GradientSymbol {
   Vector<Dim> cleaned(const Vector<Dim>& wave_vector) const;
 
  private:
-  Tensor<Dim> primitive_;
+  Tensor<Dim> basis_;
   Tensor<Dim> wave_vectors_of_phases_;
   Tensor<Dim> consistency_;
   double weight_sum_;

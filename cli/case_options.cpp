@@ -28,6 +28,8 @@ std::string_view group_title(KeyGroup group) {
       return "Scheme and base state";
     case KeyGroup::mode:
       return "Mode";
+    case KeyGroup::path:
+      return "Path and grid";
     case KeyGroup::time:
     case KeyGroup::growth:
       return "Time step";

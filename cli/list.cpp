@@ -39,6 +39,7 @@ Json list_lattices() {
   add_lattices<1>(rows);
   add_lattices<2>(rows);
   add_lattices<3>(rows);
+  rows.push_back({{"name", name_of(LatticeKind::custom)}, {"parameters", {"primitive_vectors"}}});
   return rows;
 }
 

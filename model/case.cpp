@@ -97,7 +97,14 @@ template <int Dim>
 Lattice<Dim> make_lattice(const Case& input) {
   constexpr std::array default_kind{LatticeKind::chain, LatticeKind::square, LatticeKind::cubic};
   const auto kind = input.has("lattice") ? enumerator<LatticeKind>(input, "lattice") : default_kind[Dim - 1];
-  return Lattice<Dim>(kind, input.required_number("spacing"));
+  const double spacing = input.required_number("spacing");
+  if (kind != LatticeKind::custom) {
+    if (input.has("primitive_vectors"))
+      throw InvalidInput(fmt::format("primitive_vectors: only for the lattice custom, not {}", name_of(kind)));
+    return Lattice<Dim>(kind, spacing);
+  }
+  if (!input.has("primitive_vectors")) throw missing(find_key("primitive_vectors"));
+  return Lattice<Dim>(make_tensor<Dim>(input, "primitive_vectors").transpose(), spacing);
 }
 
 NeighbourRule neighbour_rule(const Case& input) { return enumerator<NeighbourRule>(input, "neighbours"); }

@@ -40,6 +40,8 @@ class Case {
 template <int Dim>
 Kernel<Dim> make_kernel(const Case& input);
 
+/// Lattice of the case. primitive_vectors lists a_1, a_2 … one after the other, in spacings. Throws InvalidInput if
+/// they are missing for the lattice custom, given for another, too few or many, or dependent.
 template <int Dim>
 Lattice<Dim> make_lattice(const Case& input);
 

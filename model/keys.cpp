@@ -27,6 +27,8 @@ const Key table[] = {
     {"lattice", word, discretisation, "",
      "arrangement of the particles; default chain in 1D, square in 2D, cubic in 3D", any_number,
      all_names<LatticeKind>},
+    {"primitive_vectors", numbers, discretisation, "",
+     "primitive vectors of the lattice custom in spacings, one after the other"},
     {"spacing", number, discretisation, "1", "particle spacing, a length", positive},
     {"kernel", word, discretisation, "cubic-spline", "smoothing kernel", any_number, all_names<KernelFamily>},
     {"smoothing_length", number, discretisation, "", "smoothing length h, a length; default 1.3 spacings", positive},
@@ -56,6 +58,11 @@ const Key table[] = {
     {"wave_vector", numbers, mode, "", "wave vector k, radians per length"},
     {"mode", integers, mode, "", "m,l of k = (m pi/(M spacing), l pi/(L spacing)), with box", any_number},
     {"box", integers, mode, "", "M,L of mode, in particles", at_least_one},
+
+    {"path", text, path, "",
+     "labelled points such as G-X-M-G, or G-X|M-R with a break; default the standard path of the lattice"},
+    {"path_points", integer, path, "200", "points along the path", {.low = 2.0}},
+    {"grid", integers, path, "", "points of a grid over the Brillouin zone along each reciprocal vector", at_least_one},
 
     {"time_step", number, time, "", "length of a step, a time", positive},
     {"tolerated_growth_per_step", number, growth, "", "growth per step, max abs(lambda) - 1, that is acceptable",

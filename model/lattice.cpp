@@ -2,6 +2,7 @@
 #include "model/lattice.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <numbers>
 
 #include "model/lattice_index.hpp"
+#include "model/lattice_reduction.hpp"
 
 namespace sphstab {
 namespace {
@@ -16,7 +18,11 @@ namespace {
 /// Distances that agree to this relative difference form one shell; rounding of Σ n_i a_i is four orders below.
 constexpr double shell_tolerance = 1e-10;
 
-/// Columns a_i for unit spacing.
+/// A cell smaller than this part of a box with edges of the same lengths is none. The rounding of a reduced basis, a
+/// unit roundoff over it, then stays below `shape_tolerance`.
+constexpr double dependence_tolerance = 1e-6;
+
+/// Columns a_i for unit spacing; none for a custom lattice.
 Eigen::MatrixXd unit_primitive_vectors(LatticeKind kind) {
   using std::numbers::sqrt2;
   using std::numbers::sqrt3;
@@ -35,8 +41,30 @@ Eigen::MatrixXd unit_primitive_vectors(LatticeKind kind) {
       return Tensor<3>{{-1.0, 1.0, 1.0}, {1.0, -1.0, 1.0}, {1.0, 1.0, -1.0}} / sqrt3;
     case LatticeKind::fcc:
       return Tensor<3>{{0.0, 1.0, 1.0}, {1.0, 0.0, 1.0}, {1.0, 1.0, 0.0}} / sqrt2;
+    case LatticeKind::custom:
+      break;
   }
   return {};
+}
+
+int dimension_of(LatticeKind kind) { return static_cast<int>(unit_primitive_vectors(kind).rows()); }
+
+template <int Dim>
+Tensor<Dim> named_vectors(LatticeKind kind) {
+  if (kind == LatticeKind::custom) throw InvalidInput("primitive_vectors: missing, which the lattice custom needs");
+  if (dimension_of(kind) != Dim)
+    throw InvalidInput(fmt::format("lattice: {} has {} dimension{}, not {}", name_of(kind), dimension_of(kind),
+                                   dimension_of(kind) == 1 ? "" : "s", Dim));
+  return unit_primitive_vectors(kind);
+}
+
+template <int Dim>
+void require_independent(const Tensor<Dim>& vectors) {
+  Tensor<Dim> directions = vectors;
+  for (int i = 0; i < Dim; ++i) directions.col(i).stableNormalize();
+  if (std::abs(directions.determinant()) > dependence_tolerance) return;
+  throw InvalidInput(fmt::format("primitive_vectors: {} are linearly dependent",
+                                 fmt::join(vectors.data(), vectors.data() + vectors.size(), ",")));
 }
 
 /// Sites that a search for neighbours may look at; more than a million neighbours are a mistake.
@@ -52,8 +80,6 @@ bool before(const LatticeNeighbour<Dim>& left, const LatticeNeighbour<Dim>& righ
 
 }  // namespace
 
-int dimension_of(LatticeKind kind) { return static_cast<int>(unit_primitive_vectors(kind).rows()); }
-
 std::vector<LatticeKind> lattices_of(int dimension) {
   std::vector<LatticeKind> kinds;
   for (const auto& [kind, name] : Names<LatticeKind>::table)
@@ -62,12 +88,17 @@ std::vector<LatticeKind> lattices_of(int dimension) {
 }
 
 template <int Dim>
-Lattice<Dim>::Lattice(LatticeKind kind, double spacing) : kind_(kind), spacing_(spacing) {
+Lattice<Dim>::Lattice(LatticeKind kind, double spacing) : Lattice(kind, named_vectors<Dim>(kind), spacing) {}
+
+template <int Dim>
+Lattice<Dim>::Lattice(const Tensor<Dim>& primitive_in_spacings, double spacing)
+    : Lattice(LatticeKind::custom, primitive_in_spacings, spacing) {}
+
+template <int Dim>
+Lattice<Dim>::Lattice(LatticeKind kind, const Tensor<Dim>& primitive_in_spacings, double spacing)
+    : kind_(kind), spacing_(spacing), primitive_(spacing * primitive_in_spacings) {
   require_positive("spacing", spacing);
-  if (dimension_of(kind) != Dim)
-    throw InvalidInput(fmt::format("lattice: {} has {} dimension{}, not {}", name_of(kind), dimension_of(kind),
-                                   dimension_of(kind) == 1 ? "" : "s", Dim));
-  primitive_ = spacing * unit_primitive_vectors(kind);
+  require_independent<Dim>(primitive_in_spacings);
   reciprocal_ = 2.0 * std::numbers::pi * primitive_.inverse().transpose();
   cell_volume_ = std::abs(primitive_.determinant());
   if (!std::isnormal(cell_volume_))
@@ -76,8 +107,9 @@ Lattice<Dim>::Lattice(LatticeKind kind, double spacing) : kind_(kind), spacing_(
 
 template <int Dim>
 std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattice, double support, NeighbourRule rule) {
-  // |n_i| = |b_i · x| / 2π ≤ |b_i| support / 2π.
-  const Vector<Dim> bounds = lattice.reciprocal_vectors().colwise().norm() * support / (2.0 * std::numbers::pi);
+  const Tensor<Dim> basis = reduced_basis<Dim>(lattice.primitive_vectors());
+  // |n_i| = |b_i · x| / 2π ≤ |b_i| support / 2π, the least for a reduced basis.
+  const Vector<Dim> bounds = basis.inverse().rowwise().norm() * support;
   if (!((2.0 * bounds.array() + 1.0).prod() <= largest_search))
     throw InvalidInput(fmt::format("smoothing_length: the support {:g} is {:.3g} spacings, too many neighbours",
                                    support, support / lattice.spacing()));
@@ -85,9 +117,10 @@ std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattic
   std::vector<LatticeNeighbour<Dim>> neighbours;
   for_each_index<Dim>(-reach, reach, [&](const LatticeIndex<Dim>& n) {
     if (n.isZero()) return;
-    const Vector<Dim> position = lattice.site(n);
+    const Vector<Dim> position = basis * n.template cast<double>();
     const double distance = position.norm();
-    if (distance < support * (1.0 - tie_margin)) neighbours.push_back({n, position, distance});
+    if (distance < support * (1.0 - tie_margin))
+      neighbours.push_back({lattice_coordinates<Dim>(lattice.primitive_vectors(), position), position, distance});
   });
   if (neighbours.empty())
     throw InvalidInput(

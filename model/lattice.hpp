@@ -8,23 +8,21 @@
 
 namespace sphstab {
 
-enum class LatticeKind { chain, square, hexagonal, staggered, cubic, bcc, fcc };
+enum class LatticeKind { chain, square, hexagonal, staggered, cubic, bcc, fcc, custom };
 
 template <>
 struct Names<LatticeKind> {
-  static constexpr std::array<Named<LatticeKind>, 7> table{{{LatticeKind::chain, "chain"},
+  static constexpr std::array<Named<LatticeKind>, 8> table{{{LatticeKind::chain, "chain"},
                                                             {LatticeKind::square, "square"},
                                                             {LatticeKind::hexagonal, "hexagonal"},
                                                             {LatticeKind::staggered, "staggered"},
                                                             {LatticeKind::cubic, "cubic"},
                                                             {LatticeKind::bcc, "bcc"},
-                                                            {LatticeKind::fcc, "fcc"}}};
+                                                            {LatticeKind::fcc, "fcc"},
+                                                            {LatticeKind::custom, "custom"}}};
 };
 
-/// The dimension in which a lattice lives.
-int dimension_of(LatticeKind kind);
-
-/// The lattices of a dimension.
+/// The named lattices of a dimension: all but `custom`, which can live in any.
 std::vector<LatticeKind> lattices_of(int dimension);
 
 /// Which lattice sites within the support interact.
@@ -48,6 +46,10 @@ class Lattice {
   /// bcc (−1,1,1),(1,−1,1),(1,1,−1) over √3 and fcc (0,1,1),(1,0,1),(1,1,0) over √2, so that spacing is the distance of
   /// nearest neighbours. Throws InvalidInput if spacing is not positive or the kind does not live in `Dim` dimensions.
   Lattice(LatticeKind kind, double spacing);
+  /// A `custom` lattice: the columns times `spacing` are its primitive vectors, in any order, of either handedness and
+  /// however skewed. Throws InvalidInput (`primitive_vectors`) if they are linearly dependent: if their cell is smaller
+  /// than 1e-6 of a box of the same lengths.
+  Lattice(const Tensor<Dim>& primitive_in_spacings, double spacing);
 
   LatticeKind kind() const { return kind_; }
   double spacing() const { return spacing_; }
@@ -60,6 +62,8 @@ class Lattice {
   Vector<Dim> site(const LatticeIndex<Dim>& n) const { return primitive_ * n.template cast<double>(); }
 
  private:
+  Lattice(LatticeKind kind, const Tensor<Dim>& primitive_in_spacings, double spacing);
+
   LatticeKind kind_;
   double spacing_;
   Tensor<Dim> primitive_;
@@ -79,7 +83,8 @@ struct LatticeNeighbour {
 inline constexpr double tie_margin = 1e-12;
 
 /// The neighbours of a lattice site, itself excluded, ordered by distance, then by index. Both n and −n are present.
-/// Throws InvalidInput naming `smoothing_length` if there is none, or if there are millions.
+/// The search costs the same in whatever basis the lattice is given. Throws InvalidInput naming `smoothing_length` if
+/// there is none, or if there are millions.
 template <int Dim>
 std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattice, double support, NeighbourRule rule);
 

@@ -61,9 +61,9 @@ but for the zero-energy modes; the continuum grows without bound. The transverse
 ![Bands of the compressed square lattice](compressed.svg)
 )";
 
-Case case_of(LatticeKind kind) {
+Case case_of(int dimension, LatticeKind kind) {
   Case input;
-  input.set("dimension", static_cast<double>(dimension_of(kind)));
+  input.set("dimension", static_cast<double>(dimension));
   input.set("lattice", std::string(name_of(kind)));
   input.set("scheme", "tl-linear");
   input.set("young_modulus", young_modulus);
@@ -72,7 +72,7 @@ Case case_of(LatticeKind kind) {
 }
 
 Case compressed_case() {
-  Case input = case_of(LatticeKind::square);
+  Case input = case_of(2, LatticeKind::square);
   input.set("density_in_momentum", "equation-of-state");
   input.set("displacement_gradient", std::vector{compression, 0.0, 0.0, compression});
   return input;
@@ -175,9 +175,9 @@ void add_files(Report& report, const Bands& bands) {
 
 Report band_report(const Progress& progress) {
   std::vector<Bands> lattices;
-  for (const auto& [kind, name] : Names<LatticeKind>::table) {
-    lattices.emplace_back(name, case_of(kind));
-    if (progress) progress(static_cast<double>(lattices.size()) / Names<LatticeKind>::table.size());
+  for (int dimension = 1; dimension <= 3; ++dimension) {
+    for (const LatticeKind kind : lattices_of(dimension)) lattices.emplace_back(name_of(kind), case_of(dimension, kind));
+    if (progress) progress(dimension / 3.0);
   }
   const Bands compressed("compressed", compressed_case());
 
