@@ -19,14 +19,14 @@ std::array<WaveBranch<Dim>, Dim> DispersionRelation<Dim>::operator()(const Vecto
   require_in_range(D.isZero(0.0) || std::isnormal(form_.transverse(D)));
 
   const auto wave = [&](Branch branch, const Tensor<Dim>& Q) {
-    const Vector<Dim> image = 0.5 * (Q + Q.transpose()) * D;
+    const Vector<Dim> image = Q * D;
     const double omega_squared = D.isZero(0.0) ? 0.0 : D.dot(image);
     require_in_range(std::isfinite(omega_squared));
     WaveBranch<Dim> result{branch, omega_squared, steps_(omega_squared).continuous_growth_rate(), {}, {}};
     if (omega_squared > 0.0) {
       const double omega = std::sqrt(omega_squared);
       result.phase_speed = omega / wave_vector.norm();
-      result.group_velocity = jacobian.transpose() * image / omega;
+      result.group_velocity = jacobian * image / omega;
     }
     return result;
   };

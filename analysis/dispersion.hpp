@@ -24,7 +24,7 @@ struct WaveBranch {
 
 /// The dispersion relation of a problem (theory.md §2): with D the gradient symbol at k,
 ///   ω_L² = D · Q D, Q the longitudinal form of AcousticForm, and ω_T² = shear |D|² (twice in 3-D),
-///   ∂ω/∂k = (∂D/∂k)ᵀ ½(Q + Qᵀ) D / ω, Q = shear I for the transverse branch.
+///   ∂ω/∂k = (∂D/∂k) Q D / ω, Q = shear I for the transverse branch; ∂D/∂k and Q are symmetric.
 /// ω is exactly zero where D vanishes to rounding: at Γ and at zero-energy modes.
 /// Tested in tests/analysis/test_dispersion.cpp.
 template <int Dim>

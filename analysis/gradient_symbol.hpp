@@ -19,7 +19,7 @@ class GradientSymbol {
   /// D(k), 1 / length; k in radians per length.
   Vector<Dim> operator()(const Vector<Dim>& wave_vector) const { return series_(phases(wave_vector)); }
 
-  /// ∂D_i/∂k_j at (i, j), dimensionless.
+  /// ∂D/∂k = −V Σ_d cos(k·d) d ∇Wᵀ (/ N), dimensionless and symmetric.
   Tensor<Dim> jacobian(const Vector<Dim>& wave_vector) const {
     return series_.jet(phases(wave_vector)).jacobian * basis_.transpose();
   }

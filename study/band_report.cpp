@@ -55,8 +55,9 @@ constexpr const char* compressed_explanation = R"(
 ## A state that grows
 
 The square lattice again, compressed until its longitudinal stiffness is negative. The density of the equation of state lets
-the base stress into the linearised equations; ω² < 0 is drawn below zero as the rate of growth. Short waves grow fastest
-but for the zero-energy modes; the continuum grows without bound. The transverse branch is stiffer than at rest and stable.
+the base stress into the linearised equations; ω² < 0 is drawn below zero as the rate of growth. The growth has the shape of
+the band: fastest where |D| is largest, none at the zero-energy modes. In the continuum it has no bound. The transverse
+branch is slower than at rest, and stable.
 
 ![Bands of the compressed square lattice](compressed.svg)
 )";
@@ -176,7 +177,8 @@ void add_files(Report& report, const Bands& bands) {
 Report band_report(const Progress& progress) {
   std::vector<Bands> lattices;
   for (int dimension = 1; dimension <= 3; ++dimension) {
-    for (const LatticeKind kind : lattices_of(dimension)) lattices.emplace_back(name_of(kind), case_of(dimension, kind));
+    for (const LatticeKind kind : lattices_of(dimension))
+      lattices.emplace_back(name_of(kind), case_of(dimension, kind));
     if (progress) progress(dimension / 3.0);
   }
   const Bands compressed("compressed", compressed_case());

@@ -37,7 +37,7 @@ ExtentKey extent_of(const Case& input) {
     if (!input.has(key.name)) continue;
     if (chosen && chosen->extent != key.extent)
       throw InvalidInput(fmt::format("{}: cannot be given with {}", chosen->name, key.name));
-    chosen = &key;
+    if (!chosen) chosen = &key;
   }
   return chosen ? *chosen : ExtentKey{"path", Extent::path};
 }
@@ -235,8 +235,11 @@ std::vector<io::Mark> marks_of(const PathPoints<Dim>& points) {
 
 template <int Dim>
 std::string title_of(const Problem<Dim>& problem) {
-  return fmt::format("{} lattice, {} kernel, h = {:.4g} Δp{}, {}, ν = {:.4g}", name_of(problem.lattice.kind()),
-                     name_of(problem.kernel.family()), problem.kernel.smoothing_length() / problem.lattice.spacing(),
+  const bool strained = problem.scheme.momentum_density == MomentumDensity::equation_of_state &&
+                        !problem.displacement_gradient.isZero(0.0);
+  return fmt::format("Bands of the {} lattice{}: {}, h = {:.4g} Δp{}, {}, ν = {:.4g}", name_of(problem.lattice.kind()),
+                     strained ? ", strained" : "", name_of(problem.kernel.family()),
+                     problem.kernel.smoothing_length() / problem.lattice.spacing(),
                      problem.neighbour_rule == NeighbourRule::nearest ? ", nearest neighbours" : "",
                      name_of(problem.scheme.formulation), problem.material.poisson_ratio());
 }
@@ -269,7 +272,7 @@ io::LineFigure band_figure(const Case& input) {
     figure.curves.push_back(std::move(curve));
   }
   figure.title = title_of(problem);
-  figure.x_label = "wave vector";
+  figure.x_label = "wave vector along the path";
   figure.y_label = low < 0.0 ? "ω Δp / c_p; below zero the growth rate" : "ω Δp / c_p";
   figure.x_ticks = marks_of(points);
   for (const auto& tick : figure.x_ticks) figure.vertical_lines.push_back({tick.x, ""});
