@@ -6,20 +6,13 @@
 #include <limits>
 #include <utility>
 
+#include "model/lattice_index.hpp"
 #include "model/lattice_reduction.hpp"
 
 namespace sphstab::analysis {
 namespace {
 
 constexpr double few_roundings = 4.0 * std::numeric_limits<double>::epsilon();
-
-/// One of each pair n, −n: the last component that is not zero is positive.
-template <int Dim>
-bool in_upper_half(const LatticeIndex<Dim>& n) {
-  int axis = Dim - 1;
-  while (axis > 0 && n[axis] == 0) --axis;
-  return n[axis] > 0;
-}
 
 /// V Σ_j W_ij over the neighbours and the particle itself, or 1 without normalisation.
 template <int Dim>

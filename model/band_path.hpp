@@ -32,9 +32,9 @@ std::string_view bravais_name(const Lattice<Dim>& lattice);
 
 /// Γ first, then the labelled points of the convention of W. Setyawan, S. Curtarolo, Comput. Mater. Sci. 49 (2010) 299,
 /// Appendix A, all in or on the first zone. In 3D CUB, FCC, BCC, TET, ORC and HEX as published; every other lattice has
-/// the seven points of TRI at the halves of reciprocal vectors (X, Y, Z of a reduced basis from the shortest to the
-/// longest, then L = X + Y, M = Y + Z, N = X + Z, R = X + Y + Z up to reciprocal vectors), which are symmetric in any
-/// lattice. In 2D the plane k_z = 0 of TET (square), HEX, ORC (rectangular) and ORCC (centred rectangular), and the
+/// the seven points of TRI at the halves of reciprocal vectors, special points of any lattice (X, Y, Z of a reduced
+/// basis from the shortest to the longest, then L = X + Y, M = Y + Z, N = X + Z, R = X + Y + Z up to reciprocal
+/// vectors). In 2D the plane k_z = 0 of TET (square), HEX, ORC (rectangular) and ORCC (centred rectangular), and the
 /// plane across the unique axis of MCL (oblique). Of the equivalent sets of points it gives the one whose sum lies
 /// farthest along (1, 1/π), in 3D (1/π, 1, 1/π²): nearest to +x in 2D; in 3D the printed coordinates where the axes
 /// of the lattice are x, y, z. Tested in tests/model/test_band_path.cpp.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -59,6 +58,14 @@ Vector<Dim> generic_direction() {
   Vector<Dim> direction;
   for (int axis = 0; axis < Dim; ++axis) direction[axis] = std::pow(std::numbers::inv_pi, axis);
   return direction;
+}
+
+/// Order by the first component that differs.
+template <int Dim>
+bool before(const Vector<Dim>& left, const Vector<Dim>& right, double tolerance) {
+  int axis = 0;
+  while (axis < Dim - 1 && std::abs(left[axis] - right[axis]) <= tolerance) ++axis;
+  return left[axis] < right[axis];
 }
 
 template <int Dim>
@@ -122,27 +129,22 @@ std::vector<Vector<Dim>> BrillouinZone<Dim>::shortest_equivalents(const Vector<D
 template <int Dim>
 Vector<Dim> BrillouinZone<Dim>::in_first_zone(const Vector<Dim>& wave_vector) const {
   const auto equivalents = shortest_equivalents(wave_vector);
-  return *std::max_element(equivalents.begin(), equivalents.end(), [&](const auto& left, const auto& right) {
-    int axis = 0;
-    while (axis < Dim - 1 && std::abs(left[axis] - right[axis]) <= tolerance_) ++axis;
-    return left[axis] < right[axis];
-  });
+  return *std::max_element(equivalents.begin(), equivalents.end(),
+                           [&](const auto& left, const auto& right) { return before<Dim>(left, right, tolerance_); });
 }
 
 template <int Dim>
 IrreducibleWedge<Dim>::IrreducibleWedge(const BrillouinZone<Dim>& zone, std::vector<Tensor<Dim>> group)
     : zone_(zone), group_(std::move(group)), half_spaces_(zone.half_spaces()) {
-  double size = 0.0;
-  for (const auto& facet : half_spaces_) size = std::max(size, facet.normal.norm());
-  const double tolerance = shape_tolerance * size;
+  for (const auto& facet : half_spaces_) tolerance_ = std::max(tolerance_, shape_tolerance * facet.normal.norm());
   const Vector<Dim> direction = generic_direction<Dim>();
   for (const auto& element : group_)  // R k · u ≤ k · u
     if (const Vector<Dim> normal = element.transpose() * direction - direction; normal.norm() > shape_tolerance)
       half_spaces_.push_back({normal.normalized(), 0.0});
-  vertices_ = corners<Dim>(half_spaces_, tolerance);
+  vertices_ = corners<Dim>(half_spaces_, tolerance_);
   std::erase_if(half_spaces_, [&](const HalfSpace<Dim>& side) {
     return std::count_if(vertices_.begin(), vertices_.end(), [&](const Vector<Dim>& vertex) {
-             return side.normal.dot(vertex) - side.offset >= -tolerance * side.normal.norm();
+             return side.normal.dot(vertex) - side.offset >= -tolerance_ * side.normal.norm();
            }) < Dim;
   });
 }
@@ -150,15 +152,13 @@ IrreducibleWedge<Dim>::IrreducibleWedge(const BrillouinZone<Dim>& zone, std::vec
 template <int Dim>
 Vector<Dim> IrreducibleWedge<Dim>::in_wedge(const Vector<Dim>& wave_vector) const {
   const Vector<Dim> direction = generic_direction<Dim>();
-  Vector<Dim> best = wave_vector;
-  double highest = -std::numeric_limits<double>::infinity();
+  std::vector<Vector<Dim>> images;
   for (const auto& k : zone_.shortest_equivalents(wave_vector))
-    for (const auto& element : group_)
-      if (const Vector<Dim> image = element * k; image.dot(direction) > highest) {
-        best = image;
-        highest = image.dot(direction);
-      }
-  return best;
+    for (const auto& element : group_) images.push_back(element * k);
+  return *std::max_element(images.begin(), images.end(), [&](const Vector<Dim>& left, const Vector<Dim>& right) {
+    const double difference = (right - left).dot(direction);
+    return std::abs(difference) > tolerance_ ? difference > 0.0 : before<Dim>(left, right, tolerance_);
+  });
 }
 
 template class BrillouinZone<1>;

@@ -58,12 +58,13 @@ class IrreducibleWedge {
   /// Its corners, in no order.
   const std::vector<Vector<Dim>>& vertices() const { return vertices_; }
   /// The k of the wedge that is equivalent to `wave_vector` under the group and reciprocal vectors. Where the boundary
-  /// of the zone has several, the one with the largest component along the fixed direction.
+  /// of the wedge has several, the one with the largest component along the fixed direction, then the first axis …
   Vector<Dim> in_wedge(const Vector<Dim>& wave_vector) const;
   const std::vector<Tensor<Dim>>& group() const { return group_; }
 
  private:
   BrillouinZone<Dim> zone_;
+  double tolerance_ = 0.0;  ///< components within it count as equal
   std::vector<Tensor<Dim>> group_;
   std::vector<HalfSpace<Dim>> half_spaces_;
   std::vector<Vector<Dim>> vertices_;

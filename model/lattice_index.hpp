@@ -19,4 +19,12 @@ void for_each_index(const LatticeIndex<Dim>& low, const LatticeIndex<Dim>& high,
   }
 }
 
+/// True for one of each pair n, −n, the one whose last component that is not zero is positive; false for 0.
+template <int Dim>
+bool in_upper_half(const LatticeIndex<Dim>& n) {
+  int axis = Dim - 1;
+  while (axis > 0 && n[axis] == 0) --axis;
+  return n[axis] > 0;
+}
+
 }  // namespace sphstab

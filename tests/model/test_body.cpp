@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model/body.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -72,4 +73,20 @@ TEST_CASE("plates need the square lattice and at least two particles each way", 
   CHECK_THROWS_WITH(free_plate<2>(problem(LatticeKind::square, 0.8), {4, 1}),
                     Catch::StartsWith("plate: 4,1 has a count"));
   CHECK_THROWS_WITH(periodic_patch<2>(problem(LatticeKind::square, 0.8), {4, 0}), Catch::StartsWith("patch: 4,0"));
+}
+
+TEST_CASE("a periodic patch of a skewed basis is one of the same lattice", "[fast]") {
+  constexpr double rounding_of_skewed = 1e-12;  // basis vectors of length ten
+  auto p = problem(LatticeKind::square, 0.8);
+  const Tensor<2> shear{{1.0, 10.0}, {0.0, 1.0}};
+  p.lattice = Lattice<2>(p.lattice.primitive_vectors() / p.lattice.spacing() * shear, p.lattice.spacing());
+  const auto patch = periodic_patch<2>(p, {4, 3});
+  for (int a = 0; a < patch.size(); ++a)
+    for (int entry = patch.pairs.first[a]; entry < patch.pairs.first[a + 1]; ++entry) {
+      const auto& separation = patch.pairs.separation[entry];
+      CHECK(separation.norm() < p.kernel.support());
+      const Vector<2> apart = patch.position[a] - patch.position[patch.pairs.neighbour[entry]] - separation;
+      const Vector<2> periods = (p.lattice.primitive_vectors().inverse() * apart).cwiseQuotient(Vector<2>(4.0, 3.0));
+      CHECK((periods - periods.array().round().matrix()).norm() < rounding_of_skewed);
+    }
 }

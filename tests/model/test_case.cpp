@@ -113,3 +113,27 @@ TEST_CASE("contradictory, missing and impossible keys are refused together", "[f
   both.set("smoothing_length", 2.0);
   CHECK_THROWS_WITH(make_problem<2>(both), "smoothing_length: cannot be given with h_over_spacing");
 }
+
+TEST_CASE("primitive vectors of a custom lattice are listed one after the other, in spacings", "[fast]") {
+  Case input = complete_with("lattice", "custom");
+  CHECK_THROWS_WITH(make_lattice<2>(input), Catch::StartsWith("primitive_vectors: missing"));
+  input.set("primitive_vectors", std::vector{1.0, 0.25, -0.5, 2.0});
+  input.set("spacing", 0.5);
+  const auto lattice = make_lattice<2>(input);
+  CHECK(lattice.kind() == LatticeKind::custom);
+  CHECK(lattice.primitive_vectors().col(0) == Vector<2>(0.5, 0.125));
+  CHECK(lattice.primitive_vectors().col(1) == Vector<2>(-0.25, 1.0));
+  CHECK(lattice.spacing() == 0.5);
+  CHECK_THROWS_WITH(make_lattice<3>(input), "primitive_vectors: has 4 components, but 9 are needed");
+  input.set("primitive_vectors", std::vector{1.0, 2.0, 0.5, 1.0});
+  CHECK_THROWS_WITH(make_lattice<2>(input), "primitive_vectors: 1,2,0.5,1 are linearly dependent");
+  CHECK_THROWS_WITH(make_lattice<2>(complete_with("primitive_vectors", "1,0,0,1")),
+                    "primitive_vectors: only for the lattice custom, not square");
+}
+
+TEST_CASE("keys of paths and grids have their limits", "[fast]") {
+  CHECK(read({{"path", "G-X|M-R"}}).word("path") == "G-X|M-R");
+  CHECK(Case().number("path_points") == 200.0);
+  CHECK_THROWS_WITH(read({{"path_points", "1"}}), "path_points: 1 is not at least 2");
+  CHECK_THROWS_WITH(read({{"grid", "4,0"}}), "grid: 0 is not at least 1");
+}

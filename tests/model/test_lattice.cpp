@@ -102,3 +102,44 @@ TEST_CASE("in one and three dimensions spacing is the distance of nearest neighb
   CHECK_THROWS_WITH(Lattice<3>(LatticeKind::square, 1.0), "lattice: square has 2 dimensions, not 3");
   CHECK_THROWS_WITH(Lattice<2>(LatticeKind::chain, 1.0), "lattice: chain has 1 dimension, not 2");
 }
+
+TEST_CASE("a custom lattice is the named one with the same primitive vectors", "[fast]") {
+  for (const LatticeKind kind : lattices_of(3)) {
+    const Lattice<3> named(kind, 0.7), custom(Lattice<3>(kind, 1.0).primitive_vectors(), 0.7);
+    CHECK(custom.kind() == LatticeKind::custom);
+    CHECK(custom.primitive_vectors() == named.primitive_vectors());
+    CHECK(custom.reciprocal_vectors() == named.reciprocal_vectors());
+    CHECK(custom.cell_volume() == named.cell_volume());
+  }
+  CHECK(lattices_of(1).size() + lattices_of(2).size() + lattices_of(3).size() + 1 == Names<LatticeKind>::table.size());
+}
+
+TEST_CASE("a skewed or left-handed basis has the same neighbours, numbered in that basis", "[fast]") {
+  const Lattice<2> square(LatticeKind::square, 0.5);
+  for (const Tensor<2>& vectors : {Tensor<2>{{1.0, 100.0}, {0.0, 1.0}}, Tensor<2>{{0.0, 1.0}, {1.0, 0.0}},
+                                   Tensor<2>{{-101.0, 10.0}, {-10.0, 1.0}}}) {
+    const Lattice<2> skewed(vectors, 0.5);
+    CHECK(skewed.cell_volume() == Approx(square.cell_volume()));
+    const auto expected = lattice_neighbours(square, 1.3, NeighbourRule::support);
+    const auto found = lattice_neighbours(skewed, 1.3, NeighbourRule::support);
+    REQUIRE(found.size() == expected.size());
+    for (const auto& neighbour : found) {
+      CHECK((skewed.site(neighbour.index) - neighbour.position).norm() < rounding * vectors.norm() * vectors.norm());
+      CHECK(neighbour.distance == Approx(neighbour.position.norm()).epsilon(rounding));
+      CHECK(std::count_if(expected.begin(), expected.end(), [&](const auto& other) {
+              return (other.position - neighbour.position).norm() < rounding * vectors.norm();
+            }) == 1);
+    }
+  }
+}
+
+TEST_CASE("dependent primitive vectors are refused, thin cells are not", "[fast]") {
+  const auto lattice = [](const Tensor<2>& vectors) { return Lattice<2>(vectors, 1.0); };
+  CHECK_THROWS_WITH(lattice(Tensor<2>{{1.0, 2.0}, {0.5, 1.0}}), "primitive_vectors: 1,0.5,2,1 are linearly dependent");
+  CHECK_THROWS_WITH(lattice(Tensor<2>{{1.0, 0.0}, {0.0, 0.0}}), Catch::EndsWith("are linearly dependent"));
+  CHECK_THROWS_WITH(lattice(Tensor<2>{{1e-9, 1e-9}, {0.0, 1e-16}}), Catch::EndsWith("are linearly dependent"));
+  CHECK_NOTHROW(lattice(Tensor<2>{{1e-9, 0.0}, {0.0, 1.0}}));
+  CHECK_THROWS_WITH(Lattice<3>(LatticeKind::custom, 1.0), Catch::StartsWith("primitive_vectors: missing"));
+  CHECK_THROWS_WITH(lattice_neighbours(lattice(Tensor<2>{{1e-4, 0.0}, {0.0, 1e-4}}), 1.0, NeighbourRule::support),
+                    Catch::StartsWith("smoothing_length: the support 1"));
+}
