@@ -35,7 +35,8 @@ constexpr const char* explanation = R"(
 Each curve is the frequency of one branch along straight lines between the labelled points of the first Brillouin zone;
 the dashed lines are the waves of the continuum, which end where they leave the range of the lattice's.
 
-- **Long waves are right.** At Γ every branch leaves with the slope of the continuum: c_p, and c_s = 0.535 c_p.
+- **Long waves are right.** At Γ every branch leaves with the slope of the continuum, c_p or c_s = 0.535 c_p, up to the
+  quadrature error of the kernel sum.
 - **Short waves lag.** The bands bend down well before the zone ends; beyond the top of a band the group velocity points
   backwards: energy travels against the phase.
 - **The top of the band gives the time step.** Leapfrog is stable up to Δt = 2/ω_max, where `dt` takes the maximum over the
