@@ -12,6 +12,7 @@
 
 #include "analysis/acoustic_form.hpp"
 #include "analysis/gradient_symbol.hpp"
+#include "analysis/in_range.hpp"
 #include "analysis/irreducible_domain.hpp"
 #include "analysis/zone_maximum.hpp"
 #include "analysis/zone_zeros.hpp"
@@ -23,12 +24,6 @@ namespace {
 
 /// The roundings of the factors between ω² and Δt.
 constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
-
-/// Extreme units can under- or overflow a double on the way; an answer that is none must not look like one.
-void require_in_range(bool sound) {
-  if (!sound)
-    throw InvalidInput("spacing, density and moduli: together they leave the range of a double; choose other units");
-}
 
 /// Every index from 0 to counts − 1 on each axis.
 template <int Dim>

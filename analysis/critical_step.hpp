@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/branch.hpp"
 #include "analysis/mode_step.hpp"
 #include "model/problem.hpp"
 
@@ -15,8 +16,6 @@ struct Bracket {
   double low;
   double high;
 };
-
-enum class Branch { longitudinal, transverse };
 
 template <int Dim>
 struct CriticalMode {

@@ -19,6 +19,11 @@ class GradientSymbol {
   /// D(k), 1 / length; k in radians per length.
   Vector<Dim> operator()(const Vector<Dim>& wave_vector) const { return series_(phases(wave_vector)); }
 
+  /// ∂D/∂k = −V Σ_d cos(k·d) d ∇Wᵀ (/ N), dimensionless and symmetric.
+  Tensor<Dim> jacobian(const Vector<Dim>& wave_vector) const {
+    return series_.jet(phases(wave_vector)).jacobian * basis_.transpose();
+  }
+
   /// D as a series in the phases θ_i = k·a_i of a reduced basis a_i, in which its frequencies are the smallest whatever
   /// basis the lattice is given in: searches over the zone cost more the higher they are.
   const SineSeries<Dim>& series() const { return series_; }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/figure.hpp"
 #include "model/keys.hpp"
 #include "study/answers.hpp"
 
@@ -26,11 +27,14 @@ struct CaseCommand {
   bool (*holds)(const Json& answer) = nullptr;  ///< whether the claim that it checks holds; absent: it checks none
   /// Lines that lead to the answer, for --explain; absent: the command has no such flag.
   std::vector<std::string> (*explain)(const Case& input) = nullptr;
-  std::vector<std::string> columns = {};  ///< that `table` shows unless told others; empty: every plain result
+  std::vector<std::string> columns = {};       ///< that `table` shows unless told others; empty: every plain result
+  Json (*rows)(const Json& answer) = nullptr;  ///< the answer as the rows of a table; absent: it has one row
+  io::LineFigure (*figure)(const Case& input) = nullptr;  ///< what --figure draws; absent: there is no such option
 };
 
 CaseCommand dt_command();
 CaseCommand matrix_command();
+CaseCommand dispersion_command();
 CaseCommand bisect_command();
 
 /// Every command that answers a case, those of `batch` alone (`kernel`, `sums`) included.

@@ -9,6 +9,7 @@
 #include "cli/report.hpp"
 #include "cli/table.hpp"
 #include "io/document.hpp"
+#include "io/files.hpp"
 #include "io/progress.hpp"
 
 namespace sphstab::cli {
@@ -16,9 +17,14 @@ namespace {
 
 constexpr std::array<std::string_view, 5> formats{"text", "json", "csv", "markdown", "latex"};
 
-/// Prints a result in the format asked for; `describe` makes the text for people.
-void print(const Json& answer, const std::string& format, std::string (*describe)(const Json&)) {
-  std::cout << (format == "text" ? describe(answer) : io::write(answer, from_name<io::Format>("format", format)));
+/// Prints a result in the format asked for: `describe` makes the text for people, `rows`, if any, the rows of a table.
+void print(const Json& answer, const std::string& format, std::string (*describe)(const Json&),
+           Json (*rows)(const Json&)) {
+  if (format == "text")
+    std::cout << describe(answer);
+  else
+    std::cout << io::write(format == "json" || rows == nullptr ? answer : rows(answer),
+                           from_name<io::Format>("format", format));
 }
 
 void add_format(CLI::App& app, std::string& format) {
@@ -29,12 +35,28 @@ void check_format(const std::string& format) {
   if (std::find(formats.begin(), formats.end(), format) == formats.end()) throw unknown_word("format", format, formats);
 }
 
-int run_case_command(const CaseCommand& command, const Case& input, const std::string& format, bool explain) {
-  check_format(format);
+/// Where the results of a command go, and what besides the answer is wanted.
+struct Output {
+  std::string format = "text";
+  std::string figure;
+  bool overwrite = false;
+  bool explain = false;
+
+  void add_figure_to(CLI::App& app) {
+    app.add_option("--figure", figure, "SVG file for a figure of the result")->type_name("FILE");
+    app.add_flag("--overwrite", overwrite, "replace the figure if it exists");
+  }
+};
+
+int run_case_command(const CaseCommand& command, const Case& input, const Output& output) {
+  check_format(output.format);
+  if (!output.figure.empty())
+    io::write_file(output.figure, io::render_svg(command.figure(input)),
+                   output.overwrite ? io::Existing::replace : io::Existing::refuse);
   io::Progress bar{std::string(command.name)};
   Json answer = command.answer(input, {.progress = [&](double fraction) { bar.show(fraction); }});
-  if (explain) answer["explanation"] = command.explain(input);
-  print(answer, format, command.describe);
+  if (output.explain) answer["explanation"] = command.explain(input);
+  print(answer, output.format, command.describe, command.rows);
   return command.holds == nullptr || command.holds(answer) ? ExitStatus::done : ExitStatus::claim_fails;
 }
 
@@ -89,21 +111,21 @@ class Program {
     CLI::App* app = add(command.name, command.summary);
     auto options = std::make_shared<CaseOptions>();
     options->add_to(*app, command.groups);
-    add_format(*app, format_);
+    add_format(*app, output_.format);
     if (command.explain != nullptr)
-      app->add_flag("--explain", explain_, "lead from the scheme to the result, line by line");
-    actions_.push_back(
-        {app, [this, command, options] { return run_case_command(command, options->read(), format_, explain_); }});
+      app->add_flag("--explain", output_.explain, "lead from the scheme to the result, line by line");
+    if (command.figure != nullptr) output_.add_figure_to(*app);
+    actions_.push_back({app, [this, command, options] { return run_case_command(command, options->read(), output_); }});
   }
 
   void add_table() {
     CLI::App* app = add("table", "a stability table: a sweep over any keys, one row a case");
     auto options = std::make_shared<TableOptions>();
     options->add_to(*app);
-    add_format(*app, format_);
+    add_format(*app, output_.format);
     actions_.push_back({app, [this, options] {
-                          check_format(format_);
-                          return run_table(*options, format_);
+                          check_format(output_.format);
+                          return run_table(*options, output_.format);
                         }});
   }
 
@@ -116,12 +138,10 @@ class Program {
   void add_list() {
     CLI::App* app = add("list", "the names and parameters of kernels, lattices, schemes, integrators and keys");
     app->add_option("topic", argument_, "one of them; default: all")->type_name("");
-    add_format(*app, format_);
+    add_format(*app, output_.format);
     actions_.push_back({app, [this] {
-                          check_format(format_);
-                          const Json answer = list_answer(argument_);
-                          const bool nested = format_ == "text" || format_ == "json";
-                          print(nested ? answer : list_rows(answer), format_, describe_list);
+                          check_format(output_.format);
+                          print(list_answer(argument_), output_.format, describe_list, list_rows);
                           return static_cast<int>(ExitStatus::done);
                         }});
   }
@@ -160,16 +180,18 @@ class Program {
   CLI::App app_{
       "Which time step is safe for elastic solids in SPH, and what is not: theory, and a solver that proves it."};
   std::vector<Action> actions_;
-  std::string format_ = "text";
-  bool explain_ = false;
+  Output output_;
   std::string argument_;
 };
 
 }  // namespace
 
 std::span<const CaseCommand> case_commands() {
-  static const std::array<CaseCommand, 5> commands{
-      dt_command(), matrix_command(), bisect_command(),
+  static const std::array<CaseCommand, 6> commands{
+      dt_command(),
+      matrix_command(),
+      dispersion_command(),
+      bisect_command(),
       CaseCommand{"kernel",
                   "a kernel and its derivatives at a distance",
                   {KeyGroup::discretisation, KeyGroup::distance},

@@ -2,7 +2,6 @@
 #include "study/answers.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "analysis/amplification.hpp"
 #include "analysis/critical_step.hpp"
 #include "analysis/lattice_sums.hpp"
+#include "study/counts.hpp"
 #include "study/foreign_solver.hpp"
 #include "study/json_values.hpp"
 #include "study/rules_of_thumb.hpp"
@@ -23,9 +23,7 @@ constexpr const char* bulk_note =
 
 template <int Dim>
 Json to_json(const analysis::CriticalMode<Dim>& mode) {
-  return {{"wave_vector", components<Dim>(mode.wave_vector)},
-          {"branch", mode.branch == analysis::Branch::longitudinal ? "longitudinal" : "transverse"},
-          {"omega", mode.omega}};
+  return {{"wave_vector", components<Dim>(mode.wave_vector)}, {"branch", name_of(mode.branch)}, {"omega", mode.omega}};
 }
 
 /// The verdict with what belongs to it: step and bracket, or growth rate, and the critical mode.
@@ -64,19 +62,6 @@ Json equivalents(const Problem<Dim>& problem, double critical_time_step) {
     rows.push_back(std::move(row));
   }
   return rows;
-}
-
-/// Bodies and boxes stay far from the range of an int, and from hours of work.
-constexpr int largest_count = 1000000;
-
-/// The counts of a body or a box. Throws InvalidInput where they multiply to more than largest_count.
-template <int Dim>
-std::optional<LatticeIndex<Dim>> make_size(const Case& input, std::string_view key) {
-  const auto counts = make_counts<Dim>(input, key);
-  if (counts && counts->template cast<double>().prod() > largest_count)
-    throw InvalidInput(fmt::format("{}: {} multiply to more than {}", key,
-                                   fmt::join(counts->data(), counts->data() + Dim, ","), largest_count));
-  return counts;
 }
 
 /// The growth per step that the user accepts: tolerated_growth_per_step, or one e-folding over `steps`.

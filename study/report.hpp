@@ -28,6 +28,9 @@ const ReportMaker& find_report(std::string_view name);
 /// without kernel normalisation, against H/Δ.
 Report zhang_plate_report(const Progress& progress);
 
+/// The bands of every named lattice along its standard path, and of a compressed base state that grows.
+Report band_report(const Progress& progress);
+
 /// The critical step of tl-linear over kernel, h/Δp and lattice in 1D, 2D and 3D, as Courant numbers, with the rules of
 /// thumb of other codes.
 Report stability_tables_report(const Progress& progress);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "analysis/acoustic_form.hpp"
+#include "analysis/branch.hpp"
+#include "analysis/critical_step.hpp"
+#include "analysis/gradient_symbol.hpp"
+
+namespace sphstab::analysis {
+
+/// One wave e^{i(k·x − ωt)} of the infinite lattice in continuous time. The speeds are those of the undamped wave and
+/// absent where ω² ≤ 0: such a wave does not travel.
+template <int Dim>
+struct WaveBranch {
+  Branch branch;
+  double omega_squared;                       ///< eigenvalue of M(k), always real in `tl-linear`; 1 / time²
+  double growth_rate;                         ///< of e^{rt}, r² + c r + ω² = 0, c the damping rate; 1 / time
+  std::optional<double> phase_speed;          ///< ω/|k|; k as given, not its equivalent in the first zone
+  std::optional<Vector<Dim>> group_velocity;  ///< ∂ω/∂k
+};
+
+/// The dispersion relation of a problem (theory.md §2): with D the gradient symbol at k,
+///   ω_L² = D · Q D, Q the longitudinal form of AcousticForm, and ω_T² = shear |D|² (twice in 3-D),
+///   ∂ω/∂k = (∂D/∂k) Q D / ω, Q = shear I for the transverse branch; ∂D/∂k and Q are symmetric.
+/// ω is exactly zero where D vanishes to rounding: at Γ and at zero-energy modes.
+/// Tested in tests/analysis/test_dispersion.cpp.
+template <int Dim>
+class DispersionRelation {
+ public:
+  explicit DispersionRelation(const Problem<Dim>& problem);
+
+  /// Every branch at k, the least ω² first. Throws InvalidInput where ω² leaves the range of a double.
+  std::array<WaveBranch<Dim>, Dim> operator()(const Vector<Dim>& wave_vector) const;
+
+ private:
+  GradientSymbol<Dim> symbol_;
+  AcousticForm<Dim> form_;
+  ModeSteps steps_;
+};
+
+extern template class DispersionRelation<1>;
+extern template class DispersionRelation<2>;
+extern template class DispersionRelation<3>;
+
+}  // namespace sphstab::analysis
