@@ -25,6 +25,15 @@ Problem<Dim> basic_problem(LatticeKind lattice, KernelFamily kernel, double h_ov
 }
 
 template <int Dim>
+Tensor<Dim> consistency(const Problem<Dim>& problem) {
+  Tensor<Dim> L = Tensor<Dim>::Zero();
+  for (const auto& d : lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule))
+    L -= problem.lattice.cell_volume() * problem.kernel.slope(d.distance) / d.distance * d.position *
+         d.position.transpose();
+  return L;
+}
+
+template <int Dim>
 std::vector<NamedProblem<Dim>> every_variant() {
   constexpr double h_over_spacing = 1.27;
   std::vector<NamedProblem<Dim>> variants;
@@ -108,6 +117,9 @@ LatticeIndex<3> running_patch() {
 template Problem<1> basic_problem(LatticeKind, KernelFamily, double);
 template Problem<2> basic_problem(LatticeKind, KernelFamily, double);
 template Problem<3> basic_problem(LatticeKind, KernelFamily, double);
+template Tensor<1> consistency(const Problem<1>&);
+template Tensor<2> consistency(const Problem<2>&);
+template Tensor<3> consistency(const Problem<3>&);
 template std::vector<NamedProblem<1>> every_variant();
 template std::vector<NamedProblem<2>> every_variant();
 template std::vector<NamedProblem<3>> every_variant();
