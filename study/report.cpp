@@ -7,7 +7,8 @@
 namespace sphstab::study {
 
 const ReportMaker& find_report(std::string_view name) {
-  static constexpr std::array<ReportMaker, 1> makers{{{"zhang-plate", zhang_plate_report}}};
+  static constexpr std::array<ReportMaker, 2> makers{
+      {{"zhang-plate", zhang_plate_report}, {"hard-cases", hard_cases_report}}};
   const auto found = std::find_if(makers.begin(), makers.end(), [&](const auto& maker) { return maker.name == name; });
   if (found != makers.end()) return *found;
   std::array<std::string_view, makers.size()> names;

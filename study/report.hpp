@@ -28,4 +28,7 @@ const ReportMaker& find_report(std::string_view name);
 /// without kernel normalisation, against H/Δ.
 Report zhang_plate_report(const Progress& progress);
 
+/// Cases that are easy to get wrong (study/hard_cases.hpp): expected value, theory and run of each.
+Report hard_cases_report(const Progress& progress);
+
 }  // namespace sphstab::study
