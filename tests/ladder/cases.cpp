@@ -42,8 +42,9 @@ std::vector<NamedProblem<Dim>> every_variant() {
       if (Dim < 3 || lattice == LatticeKind::cubic || kernel == KernelFamily::wendland_c2)
         variants.push_back(
             {fmt::format("{} {}", kernel_name, name_of(lattice)), basic_problem<Dim>(lattice, kernel, h_over_spacing)});
-    const auto add = [&variants, lattice](std::string_view what, auto change) {
-      Problem<Dim> problem = basic_problem<Dim>(lattice, KernelFamily::cubic_spline, h_over_spacing);
+    const Problem<Dim> plain = basic_problem<Dim>(lattice, KernelFamily::cubic_spline, h_over_spacing);
+    const auto add = [&variants, &plain, lattice](std::string_view what, auto change) {
+      Problem<Dim> problem = plain;
       change(problem);
       variants.push_back({fmt::format("{} {}", what, name_of(lattice)), problem});
     };
