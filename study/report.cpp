@@ -7,8 +7,10 @@
 namespace sphstab::study {
 
 const ReportMaker& find_report(std::string_view name) {
-  static constexpr std::array<ReportMaker, 3> makers{
-      {{"zhang-plate", zhang_plate_report}, {"bands", band_report}, {"stability-tables", stability_tables_report}}};
+  static constexpr std::array<ReportMaker, 4> makers{{{"zhang-plate", zhang_plate_report},
+                                                      {"bands", band_report},
+                                                      {"stability-tables", stability_tables_report},
+                                                      {"hard-cases", hard_cases_report}}};
   const auto found = std::find_if(makers.begin(), makers.end(), [&](const auto& maker) { return maker.name == name; });
   if (found != makers.end()) return *found;
   std::array<std::string_view, makers.size()> names;

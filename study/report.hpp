@@ -35,4 +35,7 @@ Report band_report(const Progress& progress);
 /// thumb of other codes.
 Report stability_tables_report(const Progress& progress);
 
+/// Cases that are easy to get wrong (study/hard_cases.hpp): expected value, theory and run of each.
+Report hard_cases_report(const Progress& progress);
+
 }  // namespace sphstab::study

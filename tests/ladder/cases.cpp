@@ -25,6 +25,25 @@ Problem<Dim> basic_problem(LatticeKind lattice, KernelFamily kernel, double h_ov
 }
 
 template <int Dim>
+Tensor<Dim> consistency(const Problem<Dim>& problem) {
+  Tensor<Dim> L = Tensor<Dim>::Zero();
+  for (const auto& d : lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule))
+    L -= problem.lattice.cell_volume() * problem.kernel.slope(d.distance) / d.distance * d.position *
+         d.position.transpose();
+  return L;
+}
+
+/// Lattices without a name: a stretched one, and a skewed one whose vectors are not the shortest.
+template <int Dim>
+std::vector<std::pair<std::string, Lattice<Dim>>> custom_lattices() {
+  Tensor<Dim> stretched = Tensor<Dim>::Identity(), skewed = Tensor<Dim>::Identity();
+  for (int i = 0; i < Dim; ++i) stretched(i, i) += 0.2 * i;
+  skewed(0, 0) = 1.1;
+  if (Dim > 1) skewed(0, Dim - 1) = 2.5;
+  return {{"stretched", Lattice<Dim>(stretched, spacing)}, {"skewed", Lattice<Dim>(skewed, spacing)}};
+}
+
+template <int Dim>
 std::vector<NamedProblem<Dim>> every_variant() {
   constexpr double h_over_spacing = 1.27;
   std::vector<NamedProblem<Dim>> variants;
@@ -33,8 +52,9 @@ std::vector<NamedProblem<Dim>> every_variant() {
       if (Dim < 3 || lattice == LatticeKind::cubic || kernel == KernelFamily::wendland_c2)
         variants.push_back(
             {fmt::format("{} {}", kernel_name, name_of(lattice)), basic_problem<Dim>(lattice, kernel, h_over_spacing)});
-    const auto add = [&variants, lattice](std::string_view what, auto change) {
-      Problem<Dim> problem = basic_problem<Dim>(lattice, KernelFamily::cubic_spline, h_over_spacing);
+    const Problem<Dim> plain = basic_problem<Dim>(lattice, KernelFamily::cubic_spline, h_over_spacing);
+    const auto add = [&variants, &plain, lattice](std::string_view what, auto change) {
+      Problem<Dim> problem = plain;
       change(problem);
       variants.push_back({fmt::format("{} {}", what, name_of(lattice)), problem});
     };
@@ -62,6 +82,14 @@ std::vector<NamedProblem<Dim>> every_variant() {
       p.scheme.kernel_normalisation = KernelNormalisation::sum;
       p.scheme.damping = Damping{0.4};
     });
+  }
+  for (const auto& [name, lattice] : custom_lattices<Dim>()) {
+    Problem<Dim> problem = basic_problem<Dim>(lattices_of(Dim).front(), KernelFamily::cubic_spline, h_over_spacing);
+    problem.lattice = lattice;
+    variants.push_back({name, problem});
+    problem.displacement_gradient = base_gradient<Dim>();
+    problem.scheme.momentum_density = MomentumDensity::equation_of_state;
+    variants.push_back({name + " density of Eq. 6 on a base state", problem});
   }
   return variants;
 }
@@ -108,6 +136,9 @@ LatticeIndex<3> running_patch() {
 template Problem<1> basic_problem(LatticeKind, KernelFamily, double);
 template Problem<2> basic_problem(LatticeKind, KernelFamily, double);
 template Problem<3> basic_problem(LatticeKind, KernelFamily, double);
+template Tensor<1> consistency(const Problem<1>&);
+template Tensor<2> consistency(const Problem<2>&);
+template Tensor<3> consistency(const Problem<3>&);
 template std::vector<NamedProblem<1>> every_variant();
 template std::vector<NamedProblem<2>> every_variant();
 template std::vector<NamedProblem<3>> every_variant();

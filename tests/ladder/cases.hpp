@@ -23,6 +23,11 @@ std::vector<NamedProblem<Dim>> every_variant();
 template <int Dim>
 Problem<Dim> basic_problem(LatticeKind lattice, KernelFamily kernel, double h_over_spacing);
 
+/// L = −V Σ d ⊗ ∇W over the neighbours, summed here: SPH sees H L for the gradient of u = H x, and L k for a long wave
+/// k.
+template <int Dim>
+Tensor<Dim> consistency(const Problem<Dim>& problem);
+
 /// Periodic patches that admit zone centre, boundary and corners, and modes that are none of these.
 template <int Dim>
 std::vector<LatticeIndex<Dim>> patches();

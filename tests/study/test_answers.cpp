@@ -114,9 +114,15 @@ TEST_CASE("reference critical time steps are answered from their keys", "[fast]"
 }
 
 TEST_CASE("dt has every key of the interface that applies to its verdict", "[fast]") {
-  const std::set<std::string> always{
-      "critical_time_step",        "bracket", "verdict", "bulk_only", "note", "symbol_maximum", "zero_energy_modes",
-      "zero_energy_modes_complete"};
+  const std::set<std::string> always{"critical_time_step",
+                                     "bracket",
+                                     "verdict",
+                                     "bulk_only",
+                                     "note",
+                                     "symbol_maximum",
+                                     "neighbours",
+                                     "zero_energy_modes",
+                                     "zero_energy_modes_complete"};
   const auto expect_keys = [&always](const Json& answer, std::set<std::string> more) {
     more.insert(always.begin(), always.end());
     CHECK(keys_of(answer) == more);
@@ -126,6 +132,7 @@ TEST_CASE("dt has every key of the interface that applies to its verdict", "[fas
   const Json plain = dt({});
   expect_keys(plain, conditional);
   CHECK(plain["verdict"] == "conditionally-stable");
+  CHECK(plain["neighbours"] == 20);  // sites within 2.6 of a square lattice
   for (const Json& rule : plain["equivalents"])
     CHECK(keys_of(rule) == std::set<std::string>{"rule", "formula", "factor_at_limit", "default", "default_is_safe"});
   CHECK(keys_of(plain["critical_mode"]) == std::set<std::string>{"wave_vector", "branch", "omega"});
