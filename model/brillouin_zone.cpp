@@ -138,15 +138,29 @@ IrreducibleWedge<Dim>::IrreducibleWedge(const BrillouinZone<Dim>& zone, std::vec
     : zone_(zone), group_(std::move(group)), half_spaces_(zone.half_spaces()) {
   for (const auto& facet : half_spaces_) tolerance_ = std::max(tolerance_, shape_tolerance * facet.normal.norm());
   const Vector<Dim> direction = generic_direction<Dim>();
-  for (const auto& element : group_)  // R k · u ≤ k · u
+  std::vector<Vector<Dim>> normals;  // of R k · u ≤ k · u
+  for (const auto& element : group_)
     if (const Vector<Dim> normal = element.transpose() * direction - direction; normal.norm() > shape_tolerance)
-      half_spaces_.push_back({normal.normalized(), 0.0});
+      normals.push_back(normal);
+  // The nearest images of the direction bound its Dirichlet domain: with them first, most others cut nothing off.
+  std::sort(normals.begin(), normals.end(),
+            [](const auto& left, const auto& right) { return left.norm() < right.norm(); });
+
   vertices_ = corners<Dim>(half_spaces_, tolerance_);
-  std::erase_if(half_spaces_, [&](const HalfSpace<Dim>& side) {
+  const auto touching = [&](const HalfSpace<Dim>& side) {
     return std::count_if(vertices_.begin(), vertices_.end(), [&](const Vector<Dim>& vertex) {
-             return side.normal.dot(vertex) - side.offset >= -tolerance_ * side.normal.norm();
-           }) < Dim;
-  });
+      return side.normal.dot(vertex) - side.offset >= -tolerance_ * side.normal.norm();
+    });
+  };
+  for (const auto& normal : normals) {
+    const HalfSpace<Dim> side{normal.normalized(), 0.0};
+    if (std::all_of(vertices_.begin(), vertices_.end(),
+                    [&](const Vector<Dim>& vertex) { return inside<Dim>(vertex, {side}, tolerance_); }))
+      continue;
+    half_spaces_.push_back(side);
+    vertices_ = corners<Dim>(half_spaces_, tolerance_);
+    std::erase_if(half_spaces_, [&](const HalfSpace<Dim>& other) { return touching(other) < Dim; });
+  }
 }
 
 template <int Dim>
