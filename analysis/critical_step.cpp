@@ -25,6 +25,10 @@ namespace {
 /// The roundings of the factors between ω² and Δt.
 constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
 
+/// Where an extreme frequency lies is known to the root of its rounding: components of k below this part of it are
+/// zero.
+constexpr double place_of_maximum = 1e-7;
+
 /// Every index from 0 to counts − 1 on each axis.
 template <int Dim>
 std::vector<LatticeIndex<Dim>> indices_below(std::string_view key, const LatticeIndex<Dim>& counts) {
@@ -105,8 +109,9 @@ BulkModes<Dim>::BulkModes(const Problem<Dim>& problem) : steps_(problem) {
     return isotropic ? scaled(of_symbol, of_form(0, 0)) : search(of_form);
   };
   const BrillouinZone<Dim> zone(problem.lattice);
-  const auto wave_vector = [&](const ZoneMaximum<Dim>& found) {
-    return zone.in_first_zone(symbol.wave_vector(found.phases));
+  const auto wave_vector = [&](const ZoneMaximum<Dim>& found) -> Vector<Dim> {
+    const Vector<Dim> k = zone.in_first_zone(symbol.wave_vector(found.phases));
+    return (k.array().abs() > place_of_maximum * k.norm()).select(k, 0.0);
   };
   const auto raise = [&](Branch branch, const ZoneMaximum<Dim>& found) {
     const ExtremeMode<Dim> before = range_.highest;

@@ -24,6 +24,9 @@ constexpr double longest_step = 0.3;
 constexpr int newton_steps = 60;
 /// Climbs that start from the boxes that the budget did not reach.
 constexpr std::size_t climbs_from_the_rest = 100;
+/// Phases of a maximum are known to the root of the rounding of its value, some 1e-8; with this radius the ball about
+/// one touches the domain somewhere.
+constexpr double place_of_maximum = 1e-6;
 /// A step that promises less than this of q is no longer taken.
 constexpr double negligible_gain = 1e-16;
 
@@ -72,7 +75,8 @@ class MaximumSearch {
       live = std::move(next);
     }
     climb_from_the_rest();
-    return {best_phases_, best_, best_ - margin_, std::max(upper_, best_ + margin_), evaluations_};
+    return {domain_.images(best_phases_, place_of_maximum).front(), best_, best_ - margin_,
+            std::max(upper_, best_ + margin_), evaluations_};
   }
 
  private:

@@ -9,7 +9,7 @@ namespace sphstab::analysis {
 /// The maximum of q(θ) = D · Q D over all phases, certified: it lies in [lower, upper], rounding errors included.
 template <int Dim>
 struct ZoneMaximum {
-  Vector<Dim> phases;  ///< where `value` is taken
+  Vector<Dim> phases;  ///< where `value` is taken, in the domain or within rounding of it
   double value;
   double lower;
   double upper;
