@@ -25,9 +25,15 @@ namespace {
 /// The roundings of the factors between ω² and Δt.
 constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
 
-/// Where an extreme frequency lies is known to the root of its rounding: components of k below this part of it are
-/// zero.
-constexpr double place_of_maximum = 1e-7;
+/// Where a maximum lies is known to the root of its rounding: components of k below this part of it are zero.
+constexpr double smallest_component = 1e-7;
+
+/// k in the first zone, without components that are rounding.
+template <int Dim>
+Vector<Dim> tidy(const BrillouinZone<Dim>& zone, const Vector<Dim>& wave_vector) {
+  const Vector<Dim> k = zone.in_first_zone(wave_vector);
+  return (k.array().abs() > smallest_component * k.norm()).select(k, 0.0);
+}
 
 /// Every index from 0 to counts − 1 on each axis.
 template <int Dim>
@@ -109,9 +115,8 @@ BulkModes<Dim>::BulkModes(const Problem<Dim>& problem) : steps_(problem) {
     return isotropic ? scaled(of_symbol, of_form(0, 0)) : search(of_form);
   };
   const BrillouinZone<Dim> zone(problem.lattice);
-  const auto wave_vector = [&](const ZoneMaximum<Dim>& found) -> Vector<Dim> {
-    const Vector<Dim> k = zone.in_first_zone(symbol.wave_vector(found.phases));
-    return (k.array().abs() > place_of_maximum * k.norm()).select(k, 0.0);
+  const auto wave_vector = [&](const ZoneMaximum<Dim>& found) {
+    return tidy<Dim>(zone, symbol.wave_vector(found.phases));
   };
   const auto raise = [&](Branch branch, const ZoneMaximum<Dim>& found) {
     const ExtremeMode<Dim> before = range_.highest;
@@ -187,7 +192,7 @@ ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem) {
       zone_zeros(symbol.series(), irreducible_domain<Dim>(problem.lattice, symbol, Tensor<Dim>::Identity()));
   const BrillouinZone<Dim> zone(problem.lattice);
   ZeroEnergyModes<Dim> modes{{}, zeros.complete};
-  for (const auto& phases : zeros.phases) modes.wave_vectors.push_back(zone.in_first_zone(symbol.wave_vector(phases)));
+  for (const auto& phases : zeros.phases) modes.wave_vectors.push_back(tidy<Dim>(zone, symbol.wave_vector(phases)));
   const double tolerance = same_component * problem.lattice.reciprocal_vectors().norm();
   std::sort(modes.wave_vectors.begin(), modes.wave_vectors.end(),
             [&](const Vector<Dim>& left, const Vector<Dim>& right) {

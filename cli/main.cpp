@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -11,6 +14,7 @@
 #include "io/document.hpp"
 #include "io/files.hpp"
 #include "io/progress.hpp"
+#include "study/report.hpp"
 
 namespace sphstab::cli {
 namespace {
@@ -149,7 +153,9 @@ class Program {
   void add_report() {
     CLI::App* app = add("report", "regenerate a report: table, data and figure in a folder of reports");
     auto options = std::make_shared<ReportOptions>();
-    app->add_option("name", options->name, "which report [zhang-plate]")->type_name("");
+    app->add_option("name", options->name,
+                    fmt::format("one of {} [zhang-plate]", fmt::join(study::report_names(), ", ")))
+        ->type_name("");
     app->add_option("--output", options->output, "folder of reports [reports]")->type_name("FOLDER");
     app->add_flag("--overwrite", options->overwrite, "replace a report that exists");
     app->add_flag("--check", options->check,

@@ -6,16 +6,25 @@
 
 namespace sphstab::study {
 
+namespace {
+
+constexpr std::array<ReportMaker, 4> makers{{{"zhang-plate", zhang_plate_report},
+                                             {"bands", band_report},
+                                             {"stability-tables", stability_tables_report},
+                                             {"hard-cases", hard_cases_report}}};
+
+}  // namespace
+
+std::vector<std::string_view> report_names() {
+  std::vector<std::string_view> names;
+  for (const auto& maker : makers) names.push_back(maker.name);
+  return names;
+}
+
 const ReportMaker& find_report(std::string_view name) {
-  static constexpr std::array<ReportMaker, 4> makers{{{"zhang-plate", zhang_plate_report},
-                                                      {"bands", band_report},
-                                                      {"stability-tables", stability_tables_report},
-                                                      {"hard-cases", hard_cases_report}}};
   const auto found = std::find_if(makers.begin(), makers.end(), [&](const auto& maker) { return maker.name == name; });
-  if (found != makers.end()) return *found;
-  std::array<std::string_view, makers.size()> names;
-  std::transform(makers.begin(), makers.end(), names.begin(), [](const auto& maker) { return maker.name; });
-  throw unknown_word("report", name, names);
+  if (found == makers.end()) throw unknown_word("report", name, report_names());
+  return *found;
 }
 
 }  // namespace sphstab::study

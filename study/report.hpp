@@ -21,6 +21,8 @@ struct ReportMaker {
   Report (*make)(const Progress& progress);
 };
 
+std::vector<std::string_view> report_names();
+
 /// The report of that name. Throws InvalidInput that names the reports there are.
 const ReportMaker& find_report(std::string_view name);
 
