@@ -19,7 +19,7 @@ namespace {
 /// Factors on the smoothing length that a user would try.
 constexpr std::array<double, 2> other_smoothing_lengths{0.8, 1.25};
 /// Changes that are named, and the gain below which none is worth its name.
-constexpr std::size_t changes_named = 3;
+constexpr std::size_t changes_named = 2;
 constexpr double least_gain = 0.005;
 /// Relative error of the speed of long waves that a change may bring.
 constexpr double tolerable_long_wave_error = 0.05;
