@@ -34,14 +34,9 @@ void note_signals() {
   for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
 }
 
-std::vector<std::string> split_columns(const std::string& text) {
-  std::vector<std::string> columns;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const auto end = std::min(text.find(',', begin), text.size());
-    columns.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return columns;
+std::vector<std::string> columns_of(const std::string& text) {
+  const auto names = split(text, ',');
+  return {names.begin(), names.end()};
 }
 
 /// The keys of `[sweep]` in the case file and those of --sweep, which replace the same key of the file in its place.
@@ -188,7 +183,7 @@ void TableOptions::add_to(CLI::App& app) {
 int run_table(const TableOptions& options, const std::string& format) {
   const CaseCommand& command = find_case_command("answer", options.answer);
   const study::Question question{command.answer,
-                                 options.columns.empty() ? command.columns : split_columns(options.columns)};
+                                 options.columns.empty() ? command.columns : columns_of(options.columns)};
   const study::Sweep sweep = read_sweep(options, command);
   if (!options.output.empty()) return write_table(sweep, question, command.name, options, format);
   const study::SweepRows done = run_with_bar(sweep, question, {});

@@ -256,16 +256,6 @@ Tensor<Dim> towards_side(const Lattice<Dim>& lattice, const Vector<Dim>& sum) {
                            [&](const auto& left, const auto& right) { return along(left) < along(right); });
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const auto end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
 template <int Dim>
 SymmetryPoint<Dim> find_point(const std::vector<SymmetryPoint<Dim>>& points, std::string_view label,
                               std::string_view name) {

@@ -100,12 +100,8 @@ double parse_number(const Key& key, std::string_view word) {
 
 std::vector<double> parse_list(const Key& key, std::string_view text) {
   std::vector<double> values;
-  for (;;) {
-    const auto comma = text.find(',');
-    values.push_back(parse_number(key, text.substr(0, comma)));
-    if (comma == std::string_view::npos) return values;
-    text.remove_prefix(comma + 1);
-  }
+  for (const auto part : split(text, ',')) values.push_back(parse_number(key, part));
+  return values;
 }
 
 void check_number(const Key& key, double value) {

@@ -28,6 +28,16 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
 
 }  // namespace
 
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const auto end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
 InvalidInput unknown_word(std::string_view what, std::string_view word, std::span<const std::string_view> allowed) {
   const auto nearest = std::min_element(allowed.begin(), allowed.end(), [&](auto left, auto right) {
     return edit_distance(word, left) < edit_distance(word, right);

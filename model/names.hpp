@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "model/errors.hpp"
 
@@ -21,6 +22,9 @@ struct Named {
 /// `table`.
 template <class Enum>
 struct Names;
+
+/// The parts of a text between separators, empty ones too: one more than there are separators.
+std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// The error for a word that is not among those allowed: names what it stands for, and suggests the nearest one.
 InvalidInput unknown_word(std::string_view what, std::string_view word, std::span<const std::string_view> allowed);

@@ -16,16 +16,6 @@
 namespace sphstab::study {
 namespace {
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const auto end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
 /// The values of low:high:count.
 std::vector<KeyValue> equally_spaced(const Key& key, std::string_view text) {
   const auto refuse = [&](std::string_view reason) {
