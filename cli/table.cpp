@@ -14,6 +14,7 @@
 #include "io/files.hpp"
 #include "io/json.hpp"
 #include "io/progress.hpp"
+#include "model/names.hpp"
 #include "study/sweep.hpp"
 
 namespace sphstab::cli {

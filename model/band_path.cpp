@@ -14,6 +14,7 @@
 #include "model/brillouin_zone.hpp"
 #include "model/lattice_index.hpp"
 #include "model/lattice_reduction.hpp"
+#include "model/names.hpp"
 
 namespace sphstab {
 namespace {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "model/names.hpp"
 #include "model/problem.hpp"
 
 namespace sphstab {
