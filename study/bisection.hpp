@@ -40,10 +40,12 @@ long horizon_for_growth(double growth_per_step);
 long default_horizon(double tolerance);
 
 /// The critical step by running. Scans upwards from `start` in steps of 20 % to the first exit (the stable set need not
-/// be an interval), then closes the bracket around the root of the growth, fitted to the growing steps nearest to it,
-/// halving where that does not help. Both ends of the final bracket were run. Unless a horizon is given it becomes as
-/// long as the growth at a quarter of the tolerance above the limit needs, up to 256 times the default. A step that did
-/// not grow is no lower end if by the fitted law it may have grown too slowly to be seen: then the bracket stays wider.
+/// be an interval), in longer strides where fifty of them find none, then closes the bracket around the root of the
+/// growth, fitted to the growing steps nearest to it, halving where no law of growth fits. Both ends of the final
+/// bracket were run. Unless a horizon is given it becomes as long as the growth at a quarter of the tolerance above the
+/// limit needs, up to 256 times the default; where that growth is slower still, the bracket ends where growth can just
+/// be seen. A step that did not grow is no lower end if by the fitted law it may have grown too slowly to be seen: then
+/// the bracket stays wider.
 /// Tested in tests/study/test_bisection.cpp.
 Bisection bisect(const GrowthProbe& probe, const BisectionOptions& options);
 

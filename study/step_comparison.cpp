@@ -16,8 +16,8 @@
 namespace sphstab::study {
 namespace {
 
-/// The scan starts at this fraction of h over the p-wave speed; no kernel or lattice has its limit below 1.4 h/c_p in
-/// bulk (theory.md §6), and normalised edges lower it to 0.6 of that. The limit of damping alone is 2 over its rate.
+/// No kernel or lattice has its limit below 1.4 h/c_p in bulk (theory.md §6), and normalised edges lower it to 0.6 of
+/// that. The limit of damping alone is 2 over its rate.
 constexpr double start_fraction = 0.3;
 
 template <int Dim>
@@ -40,14 +40,6 @@ template <int Dim>
 std::optional<double> step_of(const analysis::StepLimit<Dim>& limit) {
   if (const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit)) return stable->critical_time_step;
   return std::nullopt;
-}
-
-template <int Dim>
-double scan_start(const Problem<Dim>& problem) {
-  const double modulus = problem.material.lame(problem.plane).p_wave_modulus();
-  const double of_waves = problem.kernel.smoothing_length() * std::sqrt(problem.material.density() / modulus);
-  const auto& damping = problem.scheme.damping;
-  return start_fraction * (damping ? std::min(of_waves, 1.0 / damping->rate) : of_waves);
 }
 
 /// One run at one step, long enough for growth of that rate: everything grows, or nothing does.
@@ -74,6 +66,14 @@ std::optional<double> StepComparison::patch_deficit() const {
 bool StepComparison::agrees(double tolerance) const {
   if (theory.critical_time_step) return relative_difference() && *relative_difference() <= tolerance;
   return theory.growth_rate ? run.low == 0.0 : !std::isfinite(run.high);
+}
+
+template <int Dim>
+double scan_start(const Problem<Dim>& problem) {
+  const double modulus = problem.material.lame(problem.plane).p_wave_modulus();
+  const double of_waves = problem.kernel.smoothing_length() * std::sqrt(problem.material.density() / modulus);
+  const auto& damping = problem.scheme.damping;
+  return start_fraction * (damping ? std::min(of_waves, 1.0 / damping->rate) : of_waves);
 }
 
 template <int Dim>
@@ -134,14 +134,17 @@ StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& 
   return {found, theory, bulk_step(problem)};
 }
 
+template double scan_start(const Problem<1>&);
 template TheoryLimit theory_limit(const Problem<1>&, const BodyChoice<1>&);
 template std::optional<double> bulk_step(const Problem<1>&);
 template solver::Field<1> critical_mode_displacement(const Problem<1>&, const BodyChoice<1>&, const Body<1>&);
 template StepComparison compare_step(const Problem<1>&, const BodyChoice<1>&, const RunOptions&, const GrowthProbe&);
+template double scan_start(const Problem<2>&);
 template TheoryLimit theory_limit(const Problem<2>&, const BodyChoice<2>&);
 template std::optional<double> bulk_step(const Problem<2>&);
 template solver::Field<2> critical_mode_displacement(const Problem<2>&, const BodyChoice<2>&, const Body<2>&);
 template StepComparison compare_step(const Problem<2>&, const BodyChoice<2>&, const RunOptions&, const GrowthProbe&);
+template double scan_start(const Problem<3>&);
 template TheoryLimit theory_limit(const Problem<3>&, const BodyChoice<3>&);
 template std::optional<double> bulk_step(const Problem<3>&);
 template solver::Field<3> critical_mode_displacement(const Problem<3>&, const BodyChoice<3>&, const Body<3>&);

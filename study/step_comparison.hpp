@@ -48,6 +48,11 @@ struct StepComparison {
 /// Plates with more particles are refused: the dense spectrum beside the run would take minutes.
 inline constexpr int largest_dense_body = 1600;
 
+/// Where a search by running starts, a rule of thumb well inside the stable range: 0.3 h over the p-wave speed, or 0.3
+/// over the damping rate, if that is less.
+template <int Dim>
+double scan_start(const Problem<Dim>& problem);
+
 /// Theory alone, of the body and of the infinite lattice.
 template <int Dim>
 TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& choice);

@@ -36,6 +36,23 @@ TEST_CASE("a shell on the support does not count, and a knot of the spline is cr
   check_group("knots and shells", 10);
 }
 
+TEST_CASE("lattices without a name have the closed forms of their neighbours, in any basis", "[ladder]") {
+  check_group("custom lattices", 6);
+}
+
+TEST_CASE("chains side by side without neighbours across have whole lines of zero-energy modes, and a limit",
+          "[ladder]") {
+  const Problem<2> problem{.lattice = Lattice<2>(Tensor<2>{{1.0, 0.0}, {0.0, 3.0}}, 1.0),
+                           .kernel = Kernel<2>(KernelFamily::cubic_spline, 0.8),
+                           .material = Material::from_young_modulus(1.0, 1.0, 0.3)};
+  CHECK_FALSE(analysis::zero_energy_modes(problem).complete);
+  const auto limit = std::get<analysis::ConditionallyStable<2>>(analysis::BulkModes<2>(problem).limit());
+  // Largest at sin(k·d) = ±1, d = (1, 0), whatever the other component; V = 3, cubic spline.
+  const double omega = 2.0 * 3.0 * std::abs(problem.kernel.slope(1.0)) *
+                       std::sqrt(problem.material.lame(Plane::strain).p_wave_modulus());
+  CHECK(limit.critical_time_step == Approx(2.0 / omega).epsilon(1e-12));
+}
+
 TEST_CASE("the Courant number does not depend on units", "[ladder]") { check_group("units", 12); }
 
 TEST_CASE("damping shortens the step by the closed form of one mode, up to what a mode bears", "[ladder]") {
@@ -56,4 +73,4 @@ TEST_CASE("a support that ends on the nearest neighbours is refused and says why
   CHECK_THROWS_AS(periodic_patch<2>(problem, {4, 4}), InvalidInput);
 }
 
-TEST_CASE("every group of hard cases is tested here", "[ladder]") { CHECK(study::hard_case_groups().size() == 6); }
+TEST_CASE("every group of hard cases is tested here", "[ladder]") { CHECK(study::hard_case_groups().size() == 7); }

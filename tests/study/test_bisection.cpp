@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -14,7 +15,7 @@ using solver::Trend;
 namespace {
 
 /// A probe that answers with a known growth law, seen only if it is one e-folding in a third of the horizon.
-study::GrowthProbe growth_law(double (*growth)(double time_step)) {
+study::GrowthProbe growth_law(const std::function<double(double time_step)>& growth) {
   return [growth](double time_step, long horizon) {
     const double smallest = 3.0 / static_cast<double>(horizon);
     const double rate = growth(time_step);
@@ -66,6 +67,51 @@ TEST_CASE("an eigenvalue that crosses the circle alone is found too, with as lon
     CHECK(*found.critical_time_step == Approx(1.0).epsilon(tolerance));
     CHECK(found.horizon >= study::default_horizon(tolerance));
   }
+}
+
+TEST_CASE("an overdamped pair, like a square root very near its limit and linear soon after, is closed", "[fast]") {
+  // verlet at cΔt = 4, where λ = 1 + μ with μ² = δ (4μ + z), z = ω²Δt².
+  for (const double z : {1.78, 0.16, 0.018, 0.0044}) {
+    INFO("z " << z);
+    const auto found = study::bisect(growth_law([z](double time_step) {
+                                       const double excess = std::max(0.0, time_step - 1.0);
+                                       return std::log1p(2.0 * excess + std::sqrt(excess * (4.0 * excess + z)));
+                                     }),
+                                     {.start = 0.1, .tolerance = tolerance});
+    REQUIRE(found.critical_time_step);
+    CHECK(found.high - found.low <= tolerance * found.high);
+    CHECK(found.low <= 1.0);
+    CHECK(found.high >= 1.0);
+    CHECK(*found.critical_time_step == Approx(1.0).epsilon(tolerance));
+    // Scan: 14. Five runs find out that no law without bend holds; halving from 20 % alone would take 18 more.
+    CHECK(found.runs <= 34);
+  }
+}
+
+TEST_CASE("where growth is too slow for the longest run the bracket is as narrow as growth can be seen", "[fast]") {
+  const auto found = study::bisect(growth_law([](double time_step) { return 0.01 * (time_step - 1.0); }),
+                                   {.start = 0.2, .tolerance = tolerance});
+  REQUIRE(found.critical_time_step);
+  CHECK(found.low <= 1.0);
+  CHECK(found.high >= 1.0);
+  // Five e-foldings in 256 default horizons; the ends are this far above and twice as far below.
+  const double visible = 5.0 / (256.0 * static_cast<double>(study::default_horizon(tolerance))) / 0.01;
+  CHECK(found.high - found.low <= 4.0 * visible);
+  CHECK(found.high - found.low >= 2.0 * visible);
+}
+
+TEST_CASE("an undecided run counts as growth only if longer ones do not decide", "[fast]") {
+  // Just below the limit a slow beat rises for 20000 steps.
+  const study::GrowthProbe beating = [](double time_step, long horizon) {
+    auto fit = growth_law(square_root_law)(time_step, horizon);
+    const bool rises = time_step > 2.0 / 3.0 * (1.0 - 1e-4) && time_step < 2.0 / 3.0 && horizon < 20000;
+    if (rises) fit.trend = Trend::undecided;
+    return fit;
+  };
+  const auto found = study::bisect(beating, {.start = 0.5, .tolerance = tolerance});
+  REQUIRE(found.critical_time_step);
+  CHECK(found.low <= 2.0 / 3.0);
+  CHECK(found.high >= 2.0 / 3.0);
 }
 
 TEST_CASE("a law that is no square root is bracketed all the same", "[fast]") {
@@ -148,6 +194,34 @@ TEST_CASE("the first exit is reported where a second stable window follows", "[f
   const auto found = study::bisect(growth_law(window), {.start = 0.2, .tolerance = 1e-4});
   REQUIRE(found.critical_time_step);
   CHECK(*found.critical_time_step == Approx(1.0).epsilon(1e-4));
+}
+
+TEST_CASE("the scan reaches every limit that is a number, in few runs", "[fast]") {
+  for (const double limit : {1e4, 1e6, 1e12, 1e24, 1e100, 1e300}) {
+    INFO("limit " << limit);
+    const auto growth = [limit](double time_step) {
+      return time_step < limit ? 0.0 : 2.0 * std::acosh(std::min(time_step / limit, 10.0));
+    };
+    const auto found = study::bisect(growth_law(growth), {.start = 1.0, .tolerance = tolerance});
+    REQUIRE(found.critical_time_step);
+    CHECK(found.high - found.low <= tolerance * found.high);
+    CHECK(*found.critical_time_step == Approx(limit).epsilon(tolerance));
+    // 50 steps of 20 %; the n-th stride after them is (n + 1) steps long, the last is gone through once more; then what
+    // any bracket of 20 % takes.
+    const double steps = std::log(limit) / std::log(1.2), strides = std::sqrt(2.0 * std::max(0.0, steps - 50.0));
+    CHECK(found.runs <= 50 + 2.0 * strides + 18);
+  }
+}
+
+TEST_CASE("the first exit of a long stride is reported, not the one where the stride ends", "[fast]") {
+  // In steps of 20 % from the start: bounded at 70, growing at 77, where the stride ends, and in a window before.
+  const auto window = [](double time_step) {
+    const double steps = std::log(time_step) / std::log(1.2);
+    return steps < 71.5 || (steps > 72.5 && steps < 74.5) ? 0.0 : 0.5;
+  };
+  const auto found = study::bisect(growth_law(window), {.start = 1.0, .tolerance = 1e-4});
+  REQUIRE(found.critical_time_step);
+  CHECK(*found.critical_time_step == Approx(std::pow(1.2, 71.5)).epsilon(1e-4));
 }
 
 TEST_CASE("no critical step is made up where everything or nothing grows", "[fast]") {
