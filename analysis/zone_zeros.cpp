@@ -39,6 +39,8 @@ class ZeroSearch {
       for (int axis = 0; axis < Dim; ++axis) phases[axis] = corner >> axis & 1u ? -std::numbers::pi : 0.0;
       keep(phases);
     }
+    complete_ = frequencies_span_space();
+    if (!complete_) return {{zeros_.begin() + 1, zeros_.end()}, complete_};
     const ZoneGrid<Dim> grid(series_, Tensor<Dim>::Identity(), domain_, grid_resolution);
     const double reachable = largest_ * std::sin(series_.type() * grid.half_width()) + series_.rounding();
     std::vector<PhaseBox<Dim>> live;
@@ -54,6 +56,14 @@ class ZeroSearch {
   }
 
  private:
+  /// Without it the series is constant along a direction, and its zeros are lines or planes.
+  bool frequencies_span_space() const {
+    Tensor<Dim> squares = Tensor<Dim>::Zero();  // integers, exact
+    for (const auto& [n, w] : series_.terms())
+      if (!w.isZero(0.0)) squares += (n * n.transpose()).template cast<double>();
+    return squares.fullPivLu().rank() == Dim;
+  }
+
   void keep(const Vector<Dim>& phases) {
     const auto same = [&](const Vector<Dim>& zero) {
       return wrapped<Dim>(zero - phases).norm() < same_zero / series_.euclidean_type();
