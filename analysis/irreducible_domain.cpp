@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/irreducible_domain.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
 #include "model/brillouin_zone.hpp"
+#include "model/lattice_index.hpp"
 
 namespace sphstab::analysis {
 namespace {
@@ -20,22 +22,59 @@ bool leaves_unchanged(const Tensor<Dim>& form, const Tensor<Dim>& R) {
   return of_metric.norm() <= few_roundings && of_form.norm() <= few_roundings * form.norm();
 }
 
+/// The last component that is not zero made positive: n and −n are one term.
+template <int Dim>
+LatticeIndex<Dim> upper(const LatticeIndex<Dim>& n) {
+  return in_upper_half<Dim>(n) ? n : -n;
+}
+
+/// Whether a map of the phases takes every term of the series to a term: a shell that ends on the support can be parted
+/// by rounding, and then the sum has fewer symmetries than the lattice.
+template <int Dim>
+bool keeps_terms(const SineSeries<Dim>& series, const Tensor<Dim>& phase_map) {
+  const auto before = [](const LatticeIndex<Dim>& left, const LatticeIndex<Dim>& right) {
+    return std::lexicographical_compare(left.begin(), left.end(), right.begin(), right.end());
+  };
+  std::vector<LatticeIndex<Dim>> frequencies;
+  for (const auto& term : series.terms()) frequencies.push_back(upper<Dim>(term.frequency));
+  std::sort(frequencies.begin(), frequencies.end(), before);
+  return std::all_of(frequencies.begin(), frequencies.end(), [&](const LatticeIndex<Dim>& n) {
+    const LatticeIndex<Dim> image =
+        (phase_map.transpose() * n.template cast<double>()).array().round().template cast<int>();
+    return std::binary_search(frequencies.begin(), frequencies.end(), upper<Dim>(image), before);
+  });
+}
+
+/// Adds the products that are missing because the roundings of their factors add up.
+template <int Dim>
+void close(std::vector<Tensor<Dim>>& group) {
+  constexpr double same_element = 1e-6;  // different ones differ by far more, equal ones by rounding
+  for (std::size_t i = 0; i < group.size(); ++i)
+    for (std::size_t j = 0; j < group.size(); ++j) {
+      const Tensor<Dim> product = group[i] * group[j];
+      const auto same = [&](const Tensor<Dim>& known) { return (known - product).norm() < same_element; };
+      if (std::none_of(group.begin(), group.end(), same)) group.push_back(product);
+    }
+}
+
 }  // namespace
 
 template <int Dim>
 ZoneDomain<Dim> irreducible_domain(const Lattice<Dim>& lattice, const GradientSymbol<Dim>& symbol,
                                    const Tensor<Dim>& form) {
-  const BrillouinZone<Dim> zone(lattice);
-  std::vector<Tensor<Dim>> group;
-  for (const auto& R : zone.point_group())
-    if (leaves_unchanged<Dim>(form, R)) group.push_back(R);
-  const IrreducibleWedge<Dim> wedge(zone, group);
-
   Tensor<Dim> to_phases, to_wave_vectors;
   for (int axis = 0; axis < Dim; ++axis) {
     to_phases.col(axis) = symbol.phases(Vector<Dim>::Unit(axis));
     to_wave_vectors.col(axis) = symbol.wave_vector(Vector<Dim>::Unit(axis));
   }
+  const BrillouinZone<Dim> zone(lattice);
+  std::vector<Tensor<Dim>> group;
+  for (const auto& R : zone.point_group())
+    if (leaves_unchanged<Dim>(form, R) && keeps_terms<Dim>(symbol.series(), to_phases * R * to_wave_vectors))
+      group.push_back(R);
+  if (group.size() < zone.point_group().size()) close<Dim>(group);
+  const IrreducibleWedge<Dim> wedge(zone, group);
+
   for (auto& R : group) R = (to_phases * R * to_wave_vectors).array().round();
   std::vector<PhaseHalfSpace<Dim>> half_spaces;
   for (const auto& side : wedge.half_spaces())

@@ -7,8 +7,9 @@
 namespace sphstab::analysis {
 
 /// The phases of the irreducible wedge of those symmetries R of the lattice that leave D · Q D as it is: D(Rk) = R D(k)
-/// for an isotropic kernel, so those with Rᵀ Q R = Q, to a few roundings. |D|² (Q = I) has all of them, 8 on the square
-/// and 48 on the cubic lattices. Tested in tests/analysis/test_zone_domain.cpp.
+/// for an isotropic kernel, so those with Rᵀ Q R = Q, to a few roundings, that take every neighbour to a neighbour.
+/// |D|² (Q = I) has all of them, 8 on the square and 48 on the cubic lattices. Tested in
+/// tests/analysis/test_zone_domain.cpp.
 template <int Dim>
 ZoneDomain<Dim> irreducible_domain(const Lattice<Dim>& lattice, const GradientSymbol<Dim>& symbol,
                                    const Tensor<Dim>& form);

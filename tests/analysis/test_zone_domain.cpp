@@ -133,3 +133,39 @@ TEST_CASE("the irreducible domain is the part of the zone that the order of the 
   CHECK(irreducible_domain<2>(square.lattice, symbol, shear).group().size() == 4);
   CHECK(irreducible_domain<2>(square.lattice, symbol, stretch).group().size() == 4);
 }
+
+TEST_CASE("symmetries that hold to more than rounding do not count", "[fast]") {
+  const Problem<2> square = problem<2>(Lattice<2>(LatticeKind::square, 1.0), KernelFamily::cubic_spline, 1.3);
+  Tensor<2> form = Tensor<2>::Identity(), vectors = form;
+  form(0, 0) += 1e-12;
+  CHECK(irreducible_domain<2>(square.lattice, GradientSymbol<2>(square), form).group().size() == 4);
+  vectors(0, 0) += 1e-12;
+  const Problem<2> nearly = problem<2>(Lattice<2>(vectors, 1.0), KernelFamily::cubic_spline, 1.3);
+  const auto domain = irreducible_domain<2>(nearly.lattice, GradientSymbol<2>(nearly), Tensor<2>::Identity());
+  CHECK(domain.group().size() == 4);
+}
+
+TEST_CASE("the symmetries that pass the rounding of a turned lattice still make a group", "[fast]") {
+  // fcc, turned, in another basis and with 15 digits: of its 48 symmetries some just pass and their products do not.
+  Tensor<3> vectors;
+  vectors << 0.455701552739102, 0.94571128098778, 2.025069232112264, 0.385041802270238, -0.251012339708501,
+      0.957974671014762, -0.802545266845216, -0.206453332078987, -3.997671714241479;
+  const auto turned = problem<3>(Lattice<3>(vectors, 1.0), KernelFamily::cubic_spline, 1.1);
+  const GradientSymbol<3> symbol(turned);
+  const auto domain = irreducible_domain<3>(turned.lattice, symbol, Tensor<3>::Identity());
+  for (const auto& left : domain.group())
+    for (const auto& right : domain.group())
+      CHECK(std::any_of(domain.group().begin(), domain.group().end(),
+                        [&](const Tensor<3>& other) { return other == left * right; }));
+  CHECK(zone_zeros(symbol.series(), domain).phases.size() == 25);  // those of fcc as it is named
+}
+
+TEST_CASE("a shell that rounding parts at the support takes its symmetries with it", "[fast]") {
+  // A turned square whose support is a rounding away from the third shell: some of its four sites are inside.
+  Tensor<2> vectors;
+  vectors << 0.982207881565826, 0.32846705061810677, 0.18779690463362914, 0.944515429550117;
+  Problem<2> parted{.lattice = Lattice<2>(vectors, 1.0),
+                    .kernel = Kernel<2>(KernelFamily::gaussian, 0.8660254037853048, 2.0),
+                    .material = zhang_material()};
+  check_maximum<2>(parted, Tensor<2>::Identity());
+}
