@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/zone_grid.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "model/errors.hpp"
 
 namespace sphstab::analysis {
 namespace {
@@ -106,8 +110,18 @@ Row tabulate(const SineSeries<Dim>& series, int i, const std::vector<AngleTable>
 }  // namespace
 
 template <int Dim>
+double zone_grid_size(const SineSeries<Dim>& series, const ZoneDomain<Dim>& domain, double resolution) {
+  return ((domain.high() - domain.low()).array() * (0.5 * series.type() / resolution)).ceil().max(1.0).prod();
+}
+
+template <int Dim>
 ZoneGrid<Dim>::ZoneGrid(const SineSeries<Dim>& series, const Tensor<Dim>& form, const ZoneDomain<Dim>& domain,
                         double resolution) {
+  if (const double boxes = zone_grid_size(series, domain, resolution); boxes > largest_zone_grid)
+    throw InvalidInput(
+        fmt::format("smoothing_length: the sums reach so far that the zone needs {:.2g} boxes, more than "
+                    "{:g}",
+                    boxes, largest_zone_grid));
   const long cells = std::lround(std::ceil(std::numbers::pi * series.type() / resolution));
   half_width_ = std::numbers::pi / static_cast<double>(cells);
   std::vector<AngleTable> tables;
@@ -138,8 +152,11 @@ PhaseBox<Dim> ZoneGrid<Dim>::box(std::size_t index) const {
   return box;
 }
 
+template double zone_grid_size(const SineSeries<1>&, const ZoneDomain<1>&, double);
 template class ZoneGrid<1>;
+template double zone_grid_size(const SineSeries<2>&, const ZoneDomain<2>&, double);
 template class ZoneGrid<2>;
+template double zone_grid_size(const SineSeries<3>&, const ZoneDomain<3>&, double);
 template class ZoneGrid<3>;
 
 }  // namespace sphstab::analysis

@@ -39,7 +39,7 @@ class ZeroSearch {
       for (int axis = 0; axis < Dim; ++axis) phases[axis] = corner >> axis & 1u ? -std::numbers::pi : 0.0;
       keep(phases);
     }
-    complete_ = frequencies_span_space();
+    complete_ = frequencies_span_space() && zone_grid_size(series_, domain_, grid_resolution) <= largest_zone_grid;
     if (!complete_) return {{zeros_.begin() + 1, zeros_.end()}, complete_};
     const ZoneGrid<Dim> grid(series_, Tensor<Dim>::Identity(), domain_, grid_resolution);
     const double reachable = largest_ * std::sin(series_.type() * grid.half_width()) + series_.rounding();

@@ -13,8 +13,8 @@ template <int Dim>
 struct ZoneZeros {
   std::vector<Vector<Dim>> phases;
   /// No other zero exists. False where the zeros are lines (neighbours along one direction only), where the series is
-  /// below its rounding on whole regions, or when a fixed work budget is spent; the zeros listed are certain all the
-  /// same.
+  /// below its rounding on whole regions, or when a fixed budget of work or memory is spent; the zeros listed are
+  /// certain all the same.
   bool complete;
 };
 

@@ -63,6 +63,12 @@ void CaseOptions::add_to(CLI::App& app, const std::vector<KeyGroup>& groups) {
 
 Json CaseOptions::file() const { return case_file_.empty() ? Json::object() : io::read_toml(case_file_); }
 
+Case CaseOptions::read() const {
+  const Json members = file();
+  if (members.contains("sweep")) throw InvalidInput("sweep: is read by table only");
+  return over(members);
+}
+
 Case CaseOptions::over(const Json& members) const {
   Case input;
   io::set_from_json(input, members);

@@ -21,7 +21,8 @@ class CaseOptions {
   /// The members of a case file with the flags that were given over them.
   Case over(const Json& members) const;
 
-  Case read() const { return over(file()); }
+  /// The case for a single answer. Throws InvalidInput where the file describes a sweep.
+  Case read() const;
 
  private:
   std::string case_file_;

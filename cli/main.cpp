@@ -42,7 +42,7 @@ void check_format(const std::string& format) {
 /// Where the results of a command go, and what besides the answer is wanted.
 struct Output {
   std::string format = "text";
-  std::string figure;
+  std::optional<std::string> figure;
   bool overwrite = false;
   bool explain = false;
 
@@ -50,12 +50,19 @@ struct Output {
     app.add_option("--figure", figure, "SVG file for a figure of the result")->type_name("FILE");
     app.add_flag("--overwrite", overwrite, "replace the figure if it exists");
   }
+
+  void check_figure() const {
+    if (overwrite && !figure) throw InvalidInput("overwrite: needs --figure");
+    if (figure && !figure->ends_with(".svg"))
+      throw InvalidInput(fmt::format("figure: '{}' does not end on .svg", *figure));
+  }
 };
 
 int run_case_command(const CaseCommand& command, const Case& input, const Output& output) {
   check_format(output.format);
-  if (!output.figure.empty())
-    io::write_file(output.figure, io::render_svg(command.figure(input)),
+  output.check_figure();
+  if (output.figure)
+    io::write_file(*output.figure, io::render_svg(command.figure(input)),
                    output.overwrite ? io::Existing::replace : io::Existing::refuse);
   io::Progress bar{std::string(command.name)};
   Json answer = command.answer(input, {.progress = [&](double fraction) { bar.show(fraction); }});

@@ -143,8 +143,8 @@ int write_table(const study::Sweep& sweep, const study::Question& question, std:
                 const TableOptions& options, const std::string& format) {
   const auto start = Clock::now();
   const auto existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
-  io::check_output(options.output, existing);
-  io::Journal journal(options.output + ".journal", identity(sweep, answer, question.columns), existing);
+  io::check_output(*options.output, existing);
+  io::Journal journal(*options.output + ".journal", identity(sweep, answer, question.columns), existing);
   note_signals();
   const study::SweepRows done =
       run_with_bar(sweep, question,
@@ -156,12 +156,12 @@ int write_table(const study::Sweep& sweep, const study::Question& question, std:
                              done.answered + done.taken_over, done.rows.size());
     return signal_base + signal_received;
   }
-  io::write_file(options.output, text_of(rows_or_no_journal(sweep, question, done, journal), format), existing);
+  io::write_file(*options.output, text_of(rows_or_no_journal(sweep, question, done, journal), format), existing);
   journal.remove();
   warn_of_errors(done);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   std::cerr << fmt::format("sphstab: {}: {} rows, {} of them taken over, {} errors, {:.2f} s, {:.3g} ms a case\n",
-                           options.output, done.rows.size(), done.taken_over, done.errors(), seconds,
+                           *options.output, done.rows.size(), done.taken_over, done.errors(), seconds,
                            1e3 * seconds / static_cast<double>(std::max(done.answered, 1L)));
   return ExitStatus::done;
 }
@@ -177,16 +177,18 @@ void TableOptions::add_to(CLI::App& app) {
   app.add_option("--output", output, "file for the table, with a journal to go on from after an interruption")
       ->type_name("FILE");
   app.add_flag("--overwrite", overwrite, "replace a file that exists, and a journal of another sweep");
-  base.add_to(app, {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time,
-                    KeyGroup::growth, KeyGroup::search, KeyGroup::distance, KeyGroup::lattice_sums});
+  base.add_to(app, {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::path,
+                    KeyGroup::time, KeyGroup::growth, KeyGroup::search, KeyGroup::distance, KeyGroup::lattice_sums});
 }
 
 int run_table(const TableOptions& options, const std::string& format) {
+  if (options.overwrite && !options.output) throw InvalidInput("overwrite: needs --output");
+  if (options.output && options.output->empty()) throw InvalidInput("output: is empty, not the name of a file");
   const CaseCommand& command = find_case_command("answer", options.answer);
   const study::Question question{command.answer,
                                  options.columns.empty() ? command.columns : columns_of(options.columns)};
   const study::Sweep sweep = read_sweep(options, command);
-  if (!options.output.empty()) return write_table(sweep, question, command.name, options, format);
+  if (options.output) return write_table(sweep, question, command.name, options, format);
   const study::SweepRows done = run_with_bar(sweep, question, {});
   std::cout << text_of(study::table_rows(sweep, question, done), format);
   warn_of_errors(done);

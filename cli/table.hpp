@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ struct TableOptions {
   std::vector<std::string> sweep;
   std::string answer = "dt";
   std::string columns;
-  std::string output;
+  std::optional<std::string> output;
   bool overwrite = false;
 
   void add_to(CLI::App& app);

@@ -17,6 +17,9 @@
 namespace sphstab::study {
 namespace {
 
+/// Each point of an answer takes some 4 kB until it is printed.
+constexpr int most_points = 200000;
+
 /// For which k a case asks.
 enum class Extent { one, grid, path };
 
@@ -98,8 +101,9 @@ PathPoints<Dim> points_along(const BandPath<Dim>& path, int count) {
 template <int Dim>
 PathPoints<Dim> path_points(const Case& input, const Lattice<Dim>& lattice) {
   const auto labels = input.word("path");
-  return points_along(labels ? band_path(lattice, *labels) : band_path(lattice),
-                      static_cast<int>(input.required_number("path_points")));
+  const double count = input.required_number("path_points");
+  if (count > most_points) throw InvalidInput(fmt::format("path_points: {} is more than {}", count, most_points));
+  return points_along(labels ? band_path(lattice, *labels) : band_path(lattice), static_cast<int>(count));
 }
 
 /// Everything about one k, in the keys of the interface.
@@ -153,7 +157,7 @@ Json dispersion_answer(const Case& input, const Request& request) {
       points.push_back(point_of(relation, make_wave_vector<Dim>(input)));
       break;
     case Extent::grid:
-      points = grid_points(problem, *make_size<Dim>(input, "grid"), request.progress);
+      points = grid_points(problem, *make_size<Dim>(input, "grid", most_points), request.progress);
       break;
     case Extent::path:
       for (const auto& run : path_points(input, problem.lattice))

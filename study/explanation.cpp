@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "analysis/critical_step.hpp"
 #include "analysis/gradient_symbol.hpp"
@@ -23,6 +24,8 @@ constexpr std::size_t changes_named = 2;
 constexpr double least_gain = 0.005;
 /// Relative error of the speed of long waves that a change may bring.
 constexpr double tolerable_long_wave_error = 0.05;
+/// Relative rounding of a limit.
+constexpr double same_step = 1e-9;
 /// Particles in the drawing of a wave.
 constexpr int particles_drawn = 13;
 
@@ -123,19 +126,31 @@ std::string advice(const Case& input, const Problem<Dim>& problem, double limit)
     if (parts.size() < changes_named && one.factor > 1.0 + least_gain)
       parts.push_back(
           fmt::format("{} {:+.0f} % ({} neighbours)", one.what, 100.0 * (one.factor - 1.0), one.neighbours));
-  if (parts.empty()) parts.push_back("no other kernel of the same h, nor h a quarter longer or a fifth shorter, does");
-  return fmt::format("{}; a coarser spacing raises it in proportion", fmt::join(parts, ", "));
+  if (parts.empty())
+    parts.push_back(
+        "no other kernel of the same h, nor h a quarter longer or a fifth shorter, does without spoiling long waves");
+  if (!problem.scheme.damping) parts.push_back("a coarser spacing with the same h/spacing in proportion");
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
+/// The integrator's rule for the worst mode, and the limit that follows.
 template <int Dim>
-std::string integrator_rule(const Problem<Dim>& problem, double omega_step) {
+std::vector<std::string> integrator_and_limit(const Problem<Dim>& problem, double omega, double step) {
   const auto name = name_of(problem.integrator);
-  if (!problem.scheme.damping)
-    return fmt::format("{} makes each mode a 2x2 map whose eigenvalues stay on the unit circle while omega dt <= 2",
-                       name);
-  return fmt::format(
-      "{} with the damping rate {:g}: an eigenvalue of the worst mode's map passes -1 at omega dt = {:.6g}", name,
-      problem.scheme.damping->rate, omega_step);
+  const double rate = problem.scheme.damping ? problem.scheme.damping->rate : 0.0;
+  // Beyond it verlet multiplies every velocity by (1 − cΔt/2)² > 1.
+  if (problem.integrator == Integrator::verlet && std::abs(rate * step - 4.0) < same_step)
+    return {line("Integrator", fmt::format("{} bears no damping beyond rate x dt = 4, whatever the mode", name)),
+            line("Limit", fmt::format("dt = 4 / {:g} = {:.8g}", rate, step))};
+  const std::string rule =
+      rate == 0.0
+          ? fmt::format("{} makes each mode a 2x2 map whose eigenvalues stay on the unit circle while omega dt <= 2",
+                        name)
+          : fmt::format(
+                "{} with the damping rate {:g}: an eigenvalue of the worst mode's map passes -1 at omega "
+                "dt = {:.6g}",
+                name, rate, omega * step);
+  return {line("Integrator", rule), line("Limit", fmt::format("dt = {:.4g} / omega = {:.8g}", omega * step, step))};
 }
 
 template <int Dim>
@@ -159,7 +174,7 @@ std::vector<std::string> explain(const Case& input) {
                neighbours.size(), name_of(problem.lattice.kind()), neighbours.front().distance,
                neighbours.back().distance, name_of(problem.kernel.family()), h / spacing, problem.kernel.support())),
       line("Symbol",
-           fmt::format("the particle sums see D(k) in place of k: right to {:.2g} % for long waves, |D| <= {:.6g} "
+           fmt::format("the particle sums see D(k) in place of k: off by {:.2g} % for long waves, |D| <= {:.6g} "
                        "= {:.4g} / spacing for all",
                        100.0 * long_wave_error(problem), modes.symbol_maximum(), modes.symbol_maximum() * spacing))};
   const auto explain_mode = [&](const analysis::CriticalMode<Dim>& mode) {
@@ -175,10 +190,8 @@ std::vector<std::string> explain(const Case& input) {
                 line("Frequency",
                      fmt::format("omega = {:.6g}, the largest of all modes: {:.4g} times p-wave speed / spacing", omega,
                                  omega * spacing / p_wave_speed)));
-            lines.push_back(line("Integrator", integrator_rule(problem, omega * step)));
-            lines.push_back(
-                line("Limit", fmt::format("dt = {:.4g} / omega = {:.8g}; Courant number dt c_p / spacing = {:.6g}",
-                                          omega * step, step, step * p_wave_speed / spacing)));
+            for (auto& one : integrator_and_limit(problem, omega, step)) lines.push_back(std::move(one));
+            lines.back() += fmt::format("; Courant number dt c_p / spacing = {:.6g}", step * p_wave_speed / spacing);
             lines.push_back(line("To raise it", advice(input, problem, step)));
           },
           [&](const analysis::UnconditionallyStable&) {

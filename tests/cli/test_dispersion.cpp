@@ -33,7 +33,11 @@ TEST_CASE("nonsense asked of dispersion is refused in one line", "[fast]") {
   CHECK(complaint({"--wave-vector", "1,0", "--grid", "3,3"}) == "wave_vector: cannot be given with grid");
   CHECK(complaint({"--grid", "3,3", "--path", "G-X"}) == "grid: cannot be given with path");
   CHECK(complaint({"--grid", "0,3"}) == "grid: 0 is not at least 1");
-  CHECK(complaint({"--grid", "2000,2000"}) == "grid: 2000,2000 multiply to more than 1000000");
+  CHECK(complaint({"--grid", "2000,2000"}) == "grid: 2000,2000 multiply to more than 200000");
+  CHECK(complaint({"--path-points", "1e9"}) == "path_points: 1000000000 is more than 200000");
+  CHECK(complaint({"--figure", ""}) == "figure: '' does not end on .svg");
+  CHECK(complaint({"--figure", "bands.png"}) == "figure: 'bands.png' does not end on .svg");
+  CHECK(complaint({"--overwrite"}) == "overwrite: needs --figure");
   CHECK(complaint({"--path-points", "2"}) == "path_points: 2 is not at least 4, the labelled points of the path");
   CHECK_THAT(complaint({"--path", "G-Q"}), StartsWith("path: "));
   CHECK_THAT(complaint({"--time-step", "1"}), StartsWith("option: '--time-step' is not known"));

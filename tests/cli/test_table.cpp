@@ -141,7 +141,7 @@ TEST_CASE("a case file holds base and sweep, and flags override both", "[fast]")
                         {"--format", "json"}))
             .out);
   CHECK(complaint_about(with({"--kernel", "gaussian"})) == "kernel: is swept and given a value too");
-  CHECK_THAT(complaint_about({"dt", "--case", file}), StartsWith("key: 'sweep' is not known"));
+  CHECK_THAT(complaint_about({"dt", "--case", file}), StartsWith("sweep: is read by table only"));
 }
 
 TEST_CASE("tables come in every format, and those for programs with every digit", "[fast]") {
@@ -206,6 +206,8 @@ TEST_CASE("what is wrong with a table is said before the work, in one line", "[f
              StartsWith("columns: 'critical_time_stp' is not known; did you mean 'critical_time_step'? Allowed: "));
   CHECK_THAT(complaint(kernels_and_h, {"--columns", "verdict,"}), StartsWith("columns: '' is not known"));
   CHECK_THAT(complaint(kernels_and_h, {"--output", "missing/table.csv"}), EndsWith("missing: no such folder"));
+  CHECK(complaint(kernels_and_h, {"--output", ""}) == "output: is empty, not the name of a file");
+  CHECK(complaint(kernels_and_h, {"--overwrite"}) == "overwrite: needs --output");
 }
 
 TEST_CASE("a table goes to a file whole, and replaces none unasked", "[fast]") {

@@ -64,6 +64,10 @@ TEST_CASE("the explanation covers one and three dimensions, damping, and states 
   CHECK_THAT(chain[2], Contains("2 on the chain lattice"));
   CHECK_THAT(chain[4], Contains("k = (1.5708), longitudinal, 4 spacings"));
   CHECK_THAT(chain[7], Contains("damping rate 0.5") && !Contains("= 2 "));
+  // Beyond cΔt = 4 verlet multiplies every velocity by (1 − cΔt/2)² > 1.
+  const auto overdamped = study::explain_time_step(case_of({{"integrator", "verlet"}, {"damping_rate", 30.0}}));
+  CHECK_THAT(overdamped[7], Contains("rate x dt = 4"));
+  CHECK_THAT(overdamped[8], Contains("dt = 4 / 30 = 0.13333333"));
   const auto cubic = study::explain_time_step(case_of({{"dimension", 3}, {"h_over_spacing", 0.6}}));
   REQUIRE(cubic.size() == 10);
   CHECK_THAT(cubic[5], Contains("a3 ▇▄▁▄"));
