@@ -31,3 +31,5 @@ TEST_CASE("the committed stability tables come out again bit for bit", "[ladder]
 }
 
 TEST_CASE("the committed bands come out again bit for bit", "[ladder]") { check_comes_out_again("bands"); }
+
+TEST_CASE("the committed hard cases come out again bit for bit", "[ladder]") { check_comes_out_again("hard-cases"); }
