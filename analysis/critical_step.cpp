@@ -103,8 +103,9 @@ BulkModes<Dim>::BulkModes(const Problem<Dim>& problem) : steps_(problem) {
   const AcousticForm<Dim> form(problem, symbol.consistency());
   const Tensor<Dim> Q = form.longitudinal();
   const Vector<Dim> q = Q.template selfadjointView<Eigen::Lower>().eigenvalues();
+  const BrillouinZone<Dim> zone(problem.lattice);
   const auto search = [&](const Tensor<Dim>& of_form) {
-    return zone_maximum<Dim>(symbol.series(), of_form, irreducible_domain(problem.lattice, symbol, of_form));
+    return zone_maximum<Dim>(symbol.series(), of_form, irreducible_domain(zone, symbol, of_form));
   };
   const auto of_symbol = search(Tensor<Dim>::Identity());
   symbol_maximum_ = std::sqrt(of_symbol.value);
@@ -114,7 +115,6 @@ BulkModes<Dim>::BulkModes(const Problem<Dim>& problem) : steps_(problem) {
     const bool isotropic = of_form == of_form(0, 0) * Tensor<Dim>::Identity() && of_form(0, 0) > 0.0;
     return isotropic ? scaled(of_symbol, of_form(0, 0)) : search(of_form);
   };
-  const BrillouinZone<Dim> zone(problem.lattice);
   const auto wave_vector = [&](const ZoneMaximum<Dim>& found) {
     return tidy<Dim>(zone, symbol.wave_vector(found.phases));
   };
@@ -188,9 +188,8 @@ std::optional<double> published_bound(const Problem<Dim>& problem) {
 template <int Dim>
 ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem) {
   const GradientSymbol<Dim> symbol(problem);
-  const auto zeros =
-      zone_zeros(symbol.series(), irreducible_domain<Dim>(problem.lattice, symbol, Tensor<Dim>::Identity()));
   const BrillouinZone<Dim> zone(problem.lattice);
+  const auto zeros = zone_zeros(symbol.series(), irreducible_domain<Dim>(zone, symbol, Tensor<Dim>::Identity()));
   ZeroEnergyModes<Dim> modes{{}, zeros.complete};
   for (const auto& phases : zeros.phases) modes.wave_vectors.push_back(tidy<Dim>(zone, symbol.wave_vector(phases)));
   const double tolerance = same_component * problem.lattice.reciprocal_vectors().norm();

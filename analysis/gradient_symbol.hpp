@@ -27,6 +27,7 @@ class GradientSymbol {
   /// D as a series in the phases θ_i = k·a_i of a reduced basis a_i, in which its frequencies are the smallest whatever
   /// basis the lattice is given in: searches over the zone cost more the higher they are.
   const SineSeries<Dim>& series() const { return series_; }
+  const Tensor<Dim>& basis() const { return basis_; }  ///< columns a_i
   Vector<Dim> phases(const Vector<Dim>& wave_vector) const { return basis_.transpose() * wave_vector; }
   Vector<Dim> wave_vector(const Vector<Dim>& phases) const { return wave_vectors_of_phases_ * phases; }
 

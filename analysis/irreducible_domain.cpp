@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/irreducible_domain.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <vector>
 
-#include "model/brillouin_zone.hpp"
 #include "model/lattice_index.hpp"
 
 namespace sphstab::analysis {
@@ -60,14 +60,9 @@ void close(std::vector<Tensor<Dim>>& group) {
 }  // namespace
 
 template <int Dim>
-ZoneDomain<Dim> irreducible_domain(const Lattice<Dim>& lattice, const GradientSymbol<Dim>& symbol,
+ZoneDomain<Dim> irreducible_domain(const BrillouinZone<Dim>& zone, const GradientSymbol<Dim>& symbol,
                                    const Tensor<Dim>& form) {
-  Tensor<Dim> to_phases, to_wave_vectors;
-  for (int axis = 0; axis < Dim; ++axis) {
-    to_phases.col(axis) = symbol.phases(Vector<Dim>::Unit(axis));
-    to_wave_vectors.col(axis) = symbol.wave_vector(Vector<Dim>::Unit(axis));
-  }
-  const BrillouinZone<Dim> zone(lattice);
+  const Tensor<Dim> to_phases = symbol.basis().transpose(), to_wave_vectors = to_phases.inverse();
   std::vector<Tensor<Dim>> group;
   for (const auto& R : zone.point_group())
     if (leaves_unchanged<Dim>(form, R) && keeps_terms<Dim>(symbol.series(), to_phases * R * to_wave_vectors))
@@ -88,8 +83,8 @@ ZoneDomain<Dim> irreducible_domain(const Lattice<Dim>& lattice, const GradientSy
   return {std::move(half_spaces), low, high, std::move(group)};
 }
 
-template ZoneDomain<1> irreducible_domain(const Lattice<1>&, const GradientSymbol<1>&, const Tensor<1>&);
-template ZoneDomain<2> irreducible_domain(const Lattice<2>&, const GradientSymbol<2>&, const Tensor<2>&);
-template ZoneDomain<3> irreducible_domain(const Lattice<3>&, const GradientSymbol<3>&, const Tensor<3>&);
+template ZoneDomain<1> irreducible_domain(const BrillouinZone<1>&, const GradientSymbol<1>&, const Tensor<1>&);
+template ZoneDomain<2> irreducible_domain(const BrillouinZone<2>&, const GradientSymbol<2>&, const Tensor<2>&);
+template ZoneDomain<3> irreducible_domain(const BrillouinZone<3>&, const GradientSymbol<3>&, const Tensor<3>&);
 
 }  // namespace sphstab::analysis

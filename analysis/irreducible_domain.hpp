@@ -3,6 +3,7 @@
 
 #include "analysis/gradient_symbol.hpp"
 #include "analysis/zone_domain.hpp"
+#include "model/brillouin_zone.hpp"
 
 namespace sphstab::analysis {
 
@@ -11,11 +12,11 @@ namespace sphstab::analysis {
 /// |D|² (Q = I) has all of them, 8 on the square and 48 on the cubic lattices. Tested in
 /// tests/analysis/test_zone_domain.cpp.
 template <int Dim>
-ZoneDomain<Dim> irreducible_domain(const Lattice<Dim>& lattice, const GradientSymbol<Dim>& symbol,
+ZoneDomain<Dim> irreducible_domain(const BrillouinZone<Dim>& zone, const GradientSymbol<Dim>& symbol,
                                    const Tensor<Dim>& form);
 
-extern template ZoneDomain<1> irreducible_domain(const Lattice<1>&, const GradientSymbol<1>&, const Tensor<1>&);
-extern template ZoneDomain<2> irreducible_domain(const Lattice<2>&, const GradientSymbol<2>&, const Tensor<2>&);
-extern template ZoneDomain<3> irreducible_domain(const Lattice<3>&, const GradientSymbol<3>&, const Tensor<3>&);
+extern template ZoneDomain<1> irreducible_domain(const BrillouinZone<1>&, const GradientSymbol<1>&, const Tensor<1>&);
+extern template ZoneDomain<2> irreducible_domain(const BrillouinZone<2>&, const GradientSymbol<2>&, const Tensor<2>&);
+extern template ZoneDomain<3> irreducible_domain(const BrillouinZone<3>&, const GradientSymbol<3>&, const Tensor<3>&);
 
 }  // namespace sphstab::analysis

@@ -119,8 +119,8 @@ ZoneGrid<Dim>::ZoneGrid(const SineSeries<Dim>& series, const Tensor<Dim>& form, 
                         double resolution) {
   if (const double boxes = zone_grid_size(series, domain, resolution); boxes > largest_zone_grid)
     throw InvalidInput(
-        fmt::format("smoothing_length: the sums reach so far that the zone needs {:.2g} boxes, more than "
-                    "{:g}",
+        fmt::format("smoothing_length: the sums reach so far that the zone needs {:.2g} boxes, more "
+                    "than {:g}",
                     boxes, largest_zone_grid));
   const long cells = std::lround(std::ceil(std::numbers::pi * series.type() / resolution));
   half_width_ = std::numbers::pi / static_cast<double>(cells);

@@ -61,7 +61,8 @@ template <int Dim>
 analysis::ZoneMaximum<Dim> certified_maximum(const Problem<Dim>& posed) {
   const analysis::GradientSymbol<Dim> symbol(posed);
   const Tensor<Dim> unit = Tensor<Dim>::Identity();
-  return analysis::zone_maximum<Dim>(symbol.series(), unit, analysis::irreducible_domain(posed.lattice, symbol, unit));
+  return analysis::zone_maximum<Dim>(symbol.series(), unit,
+                                     analysis::irreducible_domain(BrillouinZone(posed.lattice), symbol, unit));
 }
 
 template <int Dim>

@@ -258,16 +258,16 @@ Tensor<Dim> towards_side(const Lattice<Dim>& lattice, const Vector<Dim>& sum) {
 }
 
 template <int Dim>
-SymmetryPoint<Dim> find_point(const std::vector<SymmetryPoint<Dim>>& points, std::string_view label,
-                              std::string_view name) {
+SymmetryPoint<Dim> find_point(const Lattice<Dim>& lattice, const std::vector<SymmetryPoint<Dim>>& points,
+                              std::string_view label) {
   const auto found = std::find_if(points.begin(), points.end(), [&](const auto& point) {
     return point.label == label || (label == "G" && point.label == "Γ");
   });
   if (found != points.end()) return *found;
   std::vector<std::string_view> labels;
   for (const auto& point : points) labels.push_back(point.label);
-  throw InvalidInput(
-      fmt::format("path: '{}' is no point of the {} lattice, which has {}", label, name, fmt::join(labels, ", ")));
+  throw InvalidInput(fmt::format("path: '{}' is no point of the {} lattice, which has {}", label, bravais_name(lattice),
+                                 fmt::join(labels, ", ")));
 }
 
 }  // namespace
@@ -304,7 +304,7 @@ BandPath<Dim> band_path(const Lattice<Dim>& lattice, std::string_view labels) {
   for (const auto stretch : split(labels, '|')) {
     auto& corners = path.stretches.emplace_back();
     for (const auto label : split(stretch, '-')) {
-      corners.push_back(find_point<Dim>(points, label, bravais_name(lattice)));
+      corners.push_back(find_point(lattice, points, label));
       if (corners.size() > 1 && corners.end()[-2].label == corners.back().label)
         throw InvalidInput(fmt::format("path: '{}' joins {} to itself", stretch, corners.back().label));
     }

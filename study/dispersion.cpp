@@ -134,13 +134,13 @@ constexpr std::size_t progress_interval = 1024;
 
 /// k = Σ (i_j/n_j) b_j in the first zone, i_j = 0 … n_j − 1.
 template <int Dim>
-Json grid_points(const Problem<Dim>& problem, const LatticeIndex<Dim>& counts, const Progress& progress) {
-  const analysis::DispersionRelation<Dim> relation(problem);
-  const BrillouinZone<Dim> zone(problem.lattice);
+Json grid_points(const analysis::DispersionRelation<Dim>& relation, const Lattice<Dim>& lattice,
+                 const LatticeIndex<Dim>& counts, const Progress& progress) {
+  const BrillouinZone<Dim> zone(lattice);
   Json points = Json::array();
   for_each_index<Dim>(LatticeIndex<Dim>::Zero(), counts.array() - 1, [&](const LatticeIndex<Dim>& i) {
     const Vector<Dim> fractions = i.template cast<double>().cwiseQuotient(counts.template cast<double>());
-    points.push_back(point_of(relation, zone.in_first_zone(problem.lattice.reciprocal_vectors() * fractions)));
+    points.push_back(point_of(relation, zone.in_first_zone(lattice.reciprocal_vectors() * fractions)));
     if (progress && points.size() % progress_interval == 0)
       progress(static_cast<double>(points.size()) / counts.template cast<double>().prod());
   });
@@ -157,7 +157,7 @@ Json dispersion_answer(const Case& input, const Request& request) {
       points.push_back(point_of(relation, make_wave_vector<Dim>(input)));
       break;
     case Extent::grid:
-      points = grid_points(problem, *make_size<Dim>(input, "grid", most_points), request.progress);
+      points = grid_points(relation, problem.lattice, *make_size<Dim>(input, "grid", most_points), request.progress);
       break;
     case Extent::path:
       for (const auto& run : path_points(input, problem.lattice))

@@ -82,12 +82,12 @@ struct Change {
   std::size_t neighbours;
 };
 
-/// The case with one key changed. Nothing where that has no finite limit, or where long waves run wrong by more than
-/// they do already and are allowed to: a kernel that hardly feels its neighbours bears any step.
+/// The case with one key changed. Nothing where that has no finite limit, or where long waves run wrong by more than is
+/// allowed: a kernel that hardly feels its neighbours bears any step.
 template <int Dim>
-std::optional<Change> change(const Case& changed, const Problem<Dim>& problem, const std::string& what, double limit) {
+std::optional<Change> change(const Case& changed, const std::string& what, double limit, double allowed_error) {
   const auto other = make_problem<Dim>(changed);
-  if (long_wave_error(other) > std::max(long_wave_error(problem), tolerable_long_wave_error)) return std::nullopt;
+  if (long_wave_error(other) > allowed_error) return std::nullopt;
   const auto found = analysis::BulkModes<Dim>(other).limit();
   const auto* const stable = std::get_if<analysis::ConditionallyStable<Dim>>(&found);
   if (stable == nullptr) return std::nullopt;
@@ -96,12 +96,13 @@ std::optional<Change> change(const Case& changed, const Problem<Dim>& problem, c
 
 template <int Dim>
 std::vector<Change> changes(const Case& input, const Problem<Dim>& problem, double limit) {
+  const double allowed_error = std::max(long_wave_error(problem), tolerable_long_wave_error);
   std::vector<Change> found;
   const auto attempt = [&](std::string_view key, KeyValue value, const std::string& what) {
     Case changed = input;
     changed.set(key, std::move(value));
     try {
-      if (auto one = change<Dim>(changed, problem, what, limit)) found.push_back(*std::move(one));
+      if (auto one = change<Dim>(changed, what, limit, allowed_error)) found.push_back(*std::move(one));
     } catch (const InvalidInput&) {  // such as no neighbour within a shorter h: no change to recommend
     }
   };

@@ -51,7 +51,7 @@ std::vector<Tensor<Dim>> forms() {
 template <int Dim>
 void check_maximum(const Problem<Dim>& which, const Tensor<Dim>& form) {
   const GradientSymbol<Dim> symbol(which);
-  const auto domain = irreducible_domain<Dim>(which.lattice, symbol, form);
+  const auto domain = irreducible_domain<Dim>(BrillouinZone(which.lattice), symbol, form);
   const auto whole = zone_maximum<Dim>(symbol.series(), form), part = zone_maximum<Dim>(symbol.series(), form, domain);
   INFO("dimension " << Dim << " lattice " << name_of(which.lattice.kind()) << " form " << form);
   CHECK(std::abs(part.value - whole.value) <= enclosure * whole.value);
@@ -64,7 +64,7 @@ void check_maximum(const Problem<Dim>& which, const Tensor<Dim>& form) {
 template <int Dim>
 void check_covers(const Problem<Dim>& which, const Tensor<Dim>& form, std::mt19937& random) {
   const GradientSymbol<Dim> symbol(which);
-  const auto domain = irreducible_domain<Dim>(which.lattice, symbol, form);
+  const auto domain = irreducible_domain<Dim>(BrillouinZone(which.lattice), symbol, form);
   std::uniform_real_distribution<double> uniform(-std::numbers::pi, std::numbers::pi);
   INFO("dimension " << Dim << " lattice " << name_of(which.lattice.kind()) << " form " << form);
   for (int i = 0; i < 200; ++i) {
@@ -81,7 +81,7 @@ void check_covers(const Problem<Dim>& which, const Tensor<Dim>& form, std::mt199
 template <int Dim>
 void check_zeros(const Problem<Dim>& which) {
   const GradientSymbol<Dim> symbol(which);
-  const auto domain = irreducible_domain<Dim>(which.lattice, symbol, Tensor<Dim>::Identity());
+  const auto domain = irreducible_domain<Dim>(BrillouinZone(which.lattice), symbol, Tensor<Dim>::Identity());
   const auto whole = zone_zeros(symbol.series()), part = zone_zeros(symbol.series(), domain);
   INFO("dimension " << Dim << " lattice " << name_of(which.lattice.kind()));
   REQUIRE(whole.complete);
@@ -116,7 +116,7 @@ TEST_CASE("every phase has one image in the irreducible domain, where D Q D is t
 TEST_CASE("the irreducible domain is the part of the zone that the order of the group says", "[fast]") {
   const Problem<2> square = problem<2>(Lattice<2>(LatticeKind::square, 2.0), KernelFamily::cubic_spline, 2.6);
   const GradientSymbol<2> symbol(square);
-  const auto domain = irreducible_domain<2>(square.lattice, symbol, Tensor<2>::Identity());
+  const auto domain = irreducible_domain<2>(BrillouinZone(square.lattice), symbol, Tensor<2>::Identity());
   CHECK(domain.group().size() == 8);
   // k_x ≥ k_y ≥ 0 within the zone: the triangle Γ, X, M.
   CHECK(domain.low().norm() <= 1e-14);
@@ -130,18 +130,19 @@ TEST_CASE("the irreducible domain is the part of the zone that the order of the 
   Tensor<2> shear = Tensor<2>::Identity(), stretch = shear;
   shear(0, 1) = shear(1, 0) = 0.2;
   stretch(0, 0) = 2.0;
-  CHECK(irreducible_domain<2>(square.lattice, symbol, shear).group().size() == 4);
-  CHECK(irreducible_domain<2>(square.lattice, symbol, stretch).group().size() == 4);
+  CHECK(irreducible_domain<2>(BrillouinZone(square.lattice), symbol, shear).group().size() == 4);
+  CHECK(irreducible_domain<2>(BrillouinZone(square.lattice), symbol, stretch).group().size() == 4);
 }
 
 TEST_CASE("symmetries that hold to more than rounding do not count", "[fast]") {
   const Problem<2> square = problem<2>(Lattice<2>(LatticeKind::square, 1.0), KernelFamily::cubic_spline, 1.3);
   Tensor<2> form = Tensor<2>::Identity(), vectors = form;
   form(0, 0) += 1e-12;
-  CHECK(irreducible_domain<2>(square.lattice, GradientSymbol<2>(square), form).group().size() == 4);
+  CHECK(irreducible_domain<2>(BrillouinZone(square.lattice), GradientSymbol<2>(square), form).group().size() == 4);
   vectors(0, 0) += 1e-12;
   const Problem<2> nearly = problem<2>(Lattice<2>(vectors, 1.0), KernelFamily::cubic_spline, 1.3);
-  const auto domain = irreducible_domain<2>(nearly.lattice, GradientSymbol<2>(nearly), Tensor<2>::Identity());
+  const auto domain =
+      irreducible_domain<2>(BrillouinZone(nearly.lattice), GradientSymbol<2>(nearly), Tensor<2>::Identity());
   CHECK(domain.group().size() == 4);
 }
 
@@ -152,7 +153,7 @@ TEST_CASE("the symmetries that pass the rounding of a turned lattice still make 
       0.957974671014762, -0.802545266845216, -0.206453332078987, -3.997671714241479;
   const auto turned = problem<3>(Lattice<3>(vectors, 1.0), KernelFamily::cubic_spline, 1.1);
   const GradientSymbol<3> symbol(turned);
-  const auto domain = irreducible_domain<3>(turned.lattice, symbol, Tensor<3>::Identity());
+  const auto domain = irreducible_domain<3>(BrillouinZone(turned.lattice), symbol, Tensor<3>::Identity());
   for (const auto& left : domain.group())
     for (const auto& right : domain.group())
       CHECK(std::any_of(domain.group().begin(), domain.group().end(),
