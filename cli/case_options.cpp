@@ -33,8 +33,14 @@ std::string_view group_title(KeyGroup group) {
     case KeyGroup::time:
     case KeyGroup::growth:
       return "Time step";
+    case KeyGroup::body:
+      return "Body";
     case KeyGroup::search:
       return "Search";
+    case KeyGroup::spectrum:
+      return "Spectrum";
+    case KeyGroup::run:
+      return "Run";
     case KeyGroup::distance:
     case KeyGroup::lattice_sums:
       return "Query";

@@ -4,12 +4,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "model/lattice_index.hpp"
 
 namespace sphstab {
 namespace {
+
+/// Cells along each axis have an index of their own below it: three of them fit into 63 bits.
+constexpr std::int64_t cells_per_axis = std::int64_t{1} << 21;
 
 enum class Boundary { periodic, free };
 
@@ -27,6 +33,8 @@ Body<Dim> block_of_lattice(const Problem<Dim>& problem, const LatticeIndex<Dim>&
 
   Body<Dim> body;
   body.volume.assign(size, problem.lattice.cell_volume());
+  body.materials.push_back(problem.material);
+  body.material.assign(size, 0);
   for_each_index<Dim>(LatticeIndex<Dim>::Zero(), counts.array() - 1, [&](const LatticeIndex<Dim>& n) {
     body.site.push_back(n);
     body.position.push_back(problem.lattice.site(n));
@@ -59,6 +67,48 @@ void require_counts(std::string_view key, const LatticeIndex<Dim>& counts, int s
 }  // namespace
 
 template <int Dim>
+NeighbourPairs<Dim> find_pairs(const std::vector<Vector<Dim>>& position, double support) {
+  NeighbourPairs<Dim> pairs;
+  pairs.first.push_back(0);
+  if (position.empty()) return pairs;
+
+  // Particles sorted by cell; cells are kept sorted by index, so that empty ones take no room.
+  Vector<Dim> origin = position.front();
+  for (const auto& x : position) origin = origin.cwiseMin(x);
+  using Cell = Eigen::Matrix<std::int64_t, Dim, 1>;
+  const auto cell_of = [&](int a) -> Cell { return ((position[a] - origin) / support).template cast<std::int64_t>(); };
+  const auto key_of = [](const Cell& cell) {
+    std::int64_t key = 0;
+    for (int axis = Dim - 1; axis >= 0; --axis) key = key * cells_per_axis + cell[axis] + 1;
+    return key;
+  };
+  std::vector<std::pair<std::int64_t, int>> sorted;
+  for (int a = 0; a < static_cast<int>(position.size()); ++a) sorted.emplace_back(key_of(cell_of(a)), a);
+  std::sort(sorted.begin(), sorted.end());
+
+  const double limit = support * (1.0 - tie_margin);
+  std::vector<int> near;
+  for (int a = 0; a < static_cast<int>(position.size()); ++a) {
+    near.clear();
+    const Cell home = cell_of(a);
+    for_each_index<Dim>(
+        LatticeIndex<Dim>::Constant(-1), LatticeIndex<Dim>::Constant(1), [&](const LatticeIndex<Dim>& n) {
+          const std::int64_t key = key_of(home + n.template cast<std::int64_t>());
+          for (auto at = std::lower_bound(sorted.begin(), sorted.end(), std::pair<std::int64_t, int>(key, 0));
+               at != sorted.end() && at->first == key; ++at)
+            if (at->second != a && (position[a] - position[at->second]).norm() < limit) near.push_back(at->second);
+        });
+    std::sort(near.begin(), near.end());
+    for (const int b : near) {
+      pairs.neighbour.push_back(b);
+      pairs.separation.push_back(position[a] - position[b]);
+    }
+    pairs.first.push_back(static_cast<int>(pairs.neighbour.size()));
+  }
+  return pairs;
+}
+
+template <int Dim>
 Body<Dim> periodic_patch(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
   require_counts<Dim>("patch", cells, 1);
   return block_of_lattice(problem, cells, Boundary::periodic);
@@ -74,12 +124,15 @@ Body<Dim> free_plate(const Problem<Dim>& problem, const LatticeIndex<Dim>& parti
 }
 
 template struct NeighbourPairs<1>;
+template NeighbourPairs<1> find_pairs(const std::vector<Vector<1>>&, double);
 template Body<1> periodic_patch(const Problem<1>&, const LatticeIndex<1>&);
 template Body<1> free_plate(const Problem<1>&, const LatticeIndex<1>&);
 template struct NeighbourPairs<2>;
+template NeighbourPairs<2> find_pairs(const std::vector<Vector<2>>&, double);
 template Body<2> periodic_patch(const Problem<2>&, const LatticeIndex<2>&);
 template Body<2> free_plate(const Problem<2>&, const LatticeIndex<2>&);
 template struct NeighbourPairs<3>;
+template NeighbourPairs<3> find_pairs(const std::vector<Vector<3>>&, double);
 template Body<3> periodic_patch(const Problem<3>&, const LatticeIndex<3>&);
 template Body<3> free_plate(const Problem<3>&, const LatticeIndex<3>&);
 

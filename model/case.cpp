@@ -61,6 +61,12 @@ void Case::set(std::string_view key, KeyValue value) {
   values_.insert_or_assign(std::string(key), std::move(value));
 }
 
+Case Case::under(const Case& upper) const {
+  Case merged = upper;
+  merged.values_.insert(values_.begin(), values_.end());
+  return merged;
+}
+
 template <class Type>
 std::optional<Type> Case::value(std::string_view key) const {
   if (const auto found = values_.find(key); found != values_.end()) return std::get<Type>(found->second);

@@ -17,6 +17,9 @@ class Case {
 
   bool has(std::string_view key) const { return values_.find(key) != values_.end(); }
 
+  /// This case with every key that `upper` sets over its own.
+  Case under(const Case& upper) const;
+
   /// The value, or the default of the key table, or nothing.
   std::optional<double> number(std::string_view key) const { return value<double>(key); }
   std::optional<std::string> word(std::string_view key) const { return value<std::string>(key); }

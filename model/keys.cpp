@@ -19,6 +19,7 @@ constexpr Limits not_negative{.low = 0.0};
 constexpr Limits at_least_one{.low = 1.0};
 
 constexpr std::array<std::string_view, 2> seed_words{"noise", "mode"};
+constexpr std::array<std::string_view, 4> upper_bound_words{"auto", "factorisation", "norm-bound", "probabilistic"};
 
 using enum KeyKind;
 using enum KeyGroup;
@@ -70,9 +71,23 @@ const Key table[] = {
      positive},
     {"steps", number, growth, "", "instead of it: number of steps in which a factor e is acceptable", at_least_one},
 
+    {"plate", integers, KeyGroup::body, "", "particles of a free rectangular plate", {.low = 2.0}},
+    {"scene", text, KeyGroup::body, "", "TOML file of a scene: its bodies, how they are held and loaded, and keys"},
+    {"gravity", numbers, KeyGroup::body, "", "gravitational acceleration of a scene; default zeros"},
+
+    {"lowest_modes", integer, spectrum, "", "number of lowest modes and frequencies to compute", at_least_one},
+    {"upper_bound", word, spectrum, "auto",
+     "proof that no frequency is larger: a factorisation, a norm bound, or a bound for a random start; auto takes the "
+     "tightest that the size of the body allows",
+     any_number, upper_bound_words},
+
+    {"duration", number, run, "", "time that is simulated", positive},
+    {"step_fraction", number, run, "0.9", "time step over the critical one of the scene, instead of time_step",
+     positive},
+    {"snapshots", integer, run, "10", "states that are stored after the first, at equal intervals", at_least_one},
+
     {"patch", integers, search, "", "periodic cells along each primitive vector; default 16 each, 8 in 3D",
      at_least_one},
-    {"plate", integers, search, "", "particles of a free rectangular plate, instead of patch", {.low = 2.0}},
     {"seed", word, search, "noise", "start from noise, or from the critical mode of the theory", any_number,
      seed_words},
     {"noise_seed", integer, search, "1", "seed of the random numbers", not_negative},

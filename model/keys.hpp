@@ -15,7 +15,21 @@ namespace sphstab {
 enum class KeyKind { number, integer, word, numbers, integers, text };
 
 /// What a key describes. A command offers the keys of the groups that it reads.
-enum class KeyGroup { discretisation, material, scheme, mode, path, time, growth, search, distance, lattice_sums };
+enum class KeyGroup {
+  discretisation,
+  material,
+  scheme,
+  mode,
+  path,
+  time,
+  growth,
+  body,
+  search,
+  spectrum,
+  run,
+  distance,
+  lattice_sums
+};
 
 /// The interval of the numbers allowed for a key (of every component of a list).
 struct Limits {

@@ -90,3 +90,22 @@ TEST_CASE("a periodic patch of a skewed basis is one of the same lattice", "[fas
       CHECK((periods - periods.array().round().matrix()).norm() < rounding_of_skewed);
     }
 }
+
+TEST_CASE("the pairs of scattered particles are those that brute force finds, each seen from both sides", "[fast]") {
+  // Linear congruences fill a box evenly enough and leave some cells empty; a lone particle is far away.
+  std::vector<Vector<2>> position{{1e4, -3e3}};
+  for (int i = 0; i < 400; ++i) position.push_back({(i * 37 % 401) * 0.05 - 7.0, (i * 101 % 397) * 0.05});
+  constexpr double support = 1.3;
+  const auto pairs = find_pairs<2>(position, support);
+  REQUIRE(pairs.particles() == static_cast<int>(position.size()));
+  for (int a = 0; a < pairs.particles(); ++a) {
+    std::vector<int> expected;
+    for (int b = 0; b < pairs.particles(); ++b)
+      if (b != a && (position[a] - position[b]).norm() < support) expected.push_back(b);
+    CHECK(std::vector<int>(pairs.neighbour.begin() + pairs.first[a], pairs.neighbour.begin() + pairs.first[a + 1]) ==
+          expected);
+    for (int entry = pairs.first[a]; entry < pairs.first[a + 1]; ++entry)
+      CHECK((pairs.separation[entry] - (position[a] - position[pairs.neighbour[entry]])).norm() == 0.0);
+  }
+  CHECK(pairs.first[1] == 0);
+}

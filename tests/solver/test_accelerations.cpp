@@ -123,10 +123,11 @@ struct TwoParticles {
   Problem<2> problem = plain_problem();
   double V_0 = 0.5, V_1 = 0.75;
   double slope = problem.kernel.slope(spacing);
-  Body<2> body{{{0.0, 0.0}, {spacing, 0.0}},
-               {V_0, V_1},
-               {{0, 0}, {1, 0}},
-               {{0, 1, 2}, {1, 0}, {{-spacing, 0.0}, {spacing, 0.0}}}};
+  Body<2> body{.position = {{0.0, 0.0}, {spacing, 0.0}},
+               .volume = {V_0, V_1},
+               .materials = {problem.material},
+               .material = {0, 0},
+               .pairs = {{0, 1, 2}, {1, 0}, {{-spacing, 0.0}, {spacing, 0.0}}}};
 };
 
 }  // namespace
