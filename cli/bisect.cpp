@@ -7,13 +7,10 @@
 namespace sphstab::cli {
 namespace {
 
-bool holds(const Json& answer) { return answer["agrees"]; }
+ExitStatus status(const Json& answer) { return answer["agrees"].get<bool>() ? done : claim_fails; }
 
 std::string describe(const Json& answer) {
-  const bool plate = answer.contains("plate");
-  std::string text =
-      fmt::format("Critical time step by running the solver on a {} of {}\n", plate ? "free plate" : "periodic patch",
-                  numbers(answer[plate ? "plate" : "patch"], 6));
+  std::string text = fmt::format("Critical time step by running the solver on {}\n", subject(answer));
   text += row("by running", number_or(answer["critical_time_step"], "none found"));
   text += row("bracket", fmt::format("{} (bounded) to {} (growing)", number_or(answer["bracket"][0], "0"),
                                      number_or(answer["bracket"][1], "infinity")));
@@ -21,7 +18,7 @@ std::string describe(const Json& answer) {
               number_or(answer["theory"], answer.contains("theory_growth_rate") ? "every step grows" : "none"));
   text += row("relative difference",
               fmt::format("{} (tolerance {:g}): {}", number_or(answer["relative_difference"], "-", 2),
-                          answer["tolerance"].get<double>(), holds(answer) ? "agrees" : "DOES NOT AGREE"));
+                          answer["tolerance"].get<double>(), status(answer) == done ? "agrees" : "DOES NOT AGREE"));
   text += row("theory, bulk", number_or(answer["bulk_theory"], "none"));
   text += row("body/bulk - 1", number_or(answer["patch_deficit"], "-", 4));
   return text +
@@ -38,7 +35,7 @@ CaseCommand bisect_command() {
           {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::body, KeyGroup::search},
           study::bisection_answer,
           describe,
-          holds};
+          status};
 }
 
 }  // namespace sphstab::cli

@@ -23,19 +23,21 @@ struct CaseCommand {
   std::string_view summary;
   std::vector<KeyGroup> groups;  ///< whose keys it reads and offers as flags
   Json (*answer)(const Case& input, const study::Request& request);
-  std::string (*describe)(const Json& answer);  ///< for people; absent for commands of `batch` alone
-  bool (*holds)(const Json& answer) = nullptr;  ///< whether the claim that it checks holds; absent: it checks none
+  std::string (*describe)(const Json& answer);         ///< for people; absent for commands of `batch` alone
+  ExitStatus (*status)(const Json& answer) = nullptr;  ///< that the answer means; absent: `done` whatever it is
   /// Lines that lead to the answer, for --explain; absent: the command has no such flag.
   std::vector<std::string> (*explain)(const Case& input) = nullptr;
   std::vector<std::string> columns = {};       ///< that `table` shows unless told others; empty: every plain result
   Json (*rows)(const Json& answer) = nullptr;  ///< the answer as the rows of a table; absent: it has one row
   io::LineFigure (*figure)(const Case& input) = nullptr;  ///< what --figure draws; absent: there is no such option
+  bool has_files = false;                                 ///< whether --output makes it write files
 };
 
 CaseCommand dt_command();
 CaseCommand matrix_command();
 CaseCommand dispersion_command();
 CaseCommand bisect_command();
+CaseCommand spectrum_command();
 
 /// Every command that answers a case, those of `batch` alone (`kernel`, `sums`) included.
 std::span<const CaseCommand> case_commands();

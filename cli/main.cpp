@@ -43,6 +43,7 @@ void check_format(const std::string& format) {
 struct Output {
   std::string format = "text";
   std::optional<std::string> figure;
+  std::optional<std::string> folder;
   bool overwrite = false;
   bool explain = false;
 
@@ -51,24 +52,36 @@ struct Output {
     app.add_flag("--overwrite", overwrite, "replace the figure if it exists");
   }
 
-  void check_figure() const {
-    if (overwrite && !figure) throw InvalidInput("overwrite: needs --figure");
+  void add_folder_to(CLI::App& app) {
+    app.add_option("--output", folder, "folder for the states, figures and tables of the result")->type_name("FOLDER");
+    app.add_flag("--overwrite", overwrite, "replace files that are in the folder");
+  }
+
+  void check(const CaseCommand& command) const {
+    if (overwrite && !figure && !folder)
+      throw InvalidInput(fmt::format("overwrite: needs {}", command.has_files ? "--output" : "--figure"));
     if (figure && !figure->ends_with(".svg"))
       throw InvalidInput(fmt::format("figure: '{}' does not end on .svg", *figure));
   }
+
+  io::Existing existing() const { return overwrite ? io::Existing::replace : io::Existing::refuse; }
 };
 
 int run_case_command(const CaseCommand& command, const Case& input, const Output& output) {
   check_format(output.format);
-  output.check_figure();
-  if (output.figure)
-    io::write_file(*output.figure, io::render_svg(command.figure(input)),
-                   output.overwrite ? io::Existing::replace : io::Existing::refuse);
-  io::Progress bar{std::string(command.name)};
-  Json answer = command.answer(input, {.progress = [&](double fraction) { bar.show(fraction); }});
+  output.check(command);
+  if (output.figure) io::write_file(*output.figure, io::render_svg(command.figure(input)), output.existing());
+  std::optional<io::OutputFolder> folder;
+  if (output.folder) folder.emplace(*output.folder, output.existing());
+  Json answer = [&] {
+    io::Progress bar{std::string(command.name)};
+    return command.answer(
+        input, {.progress = [&](double fraction) { bar.show(fraction); }, .folder = folder ? &*folder : nullptr});
+  }();
+  if (folder) folder->commit();
   if (output.explain) answer["explanation"] = command.explain(input);
   print(answer, output.format, command.describe, command.rows);
-  return command.holds == nullptr || command.holds(answer) ? ExitStatus::done : ExitStatus::claim_fails;
+  return command.status == nullptr ? ExitStatus::done : command.status(answer);
 }
 
 /// What the subcommands store while the command line is read, and do once it has been.
@@ -126,6 +139,7 @@ class Program {
     if (command.explain != nullptr)
       app->add_flag("--explain", output_.explain, "lead from the scheme to the result, line by line");
     if (command.figure != nullptr) output_.add_figure_to(*app);
+    if (command.has_files) output_.add_folder_to(*app);
     actions_.push_back({app, [this, command, options] { return run_case_command(command, options->read(), output_); }});
   }
 
@@ -200,11 +214,12 @@ class Program {
 }  // namespace
 
 std::span<const CaseCommand> case_commands() {
-  static const std::array<CaseCommand, 6> commands{
+  static const std::array<CaseCommand, 7> commands{
       dt_command(),
       matrix_command(),
       dispersion_command(),
       bisect_command(),
+      spectrum_command(),
       CaseCommand{"kernel",
                   "a kernel and its derivatives at a distance",
                   {KeyGroup::discretisation, KeyGroup::distance},

@@ -18,4 +18,11 @@ std::string number_or(const study::Json& number, std::string_view otherwise, int
   return number.is_null() ? std::string(otherwise) : fmt::format("{:.{}g}", number.get<double>(), digits);
 }
 
+std::string subject(const study::Json& answer) {
+  if (answer.contains("scene")) return "the scene " + answer["scene"].get<std::string>();
+  const bool plate = answer.contains("plate");
+  return fmt::format("a {} of {}", plate ? "free plate" : "periodic patch",
+                     numbers(answer[plate ? "plate" : "patch"], 6));
+}
+
 }  // namespace sphstab::cli

@@ -17,4 +17,7 @@ std::string numbers(const study::Json& list, int digits);
 /// A number with so many digits, or `otherwise` for null.
 std::string number_or(const study::Json& number, std::string_view otherwise, int digits = 12);
 
+/// The body that an answer is of, in words.
+std::string subject(const study::Json& answer);
+
 }  // namespace sphstab::cli

@@ -22,12 +22,12 @@ int main() {
   std::printf("critical wave length:    %.3f spacings\n",
               6.283185307179586 / stable->mode.wave_vector.norm() / spacing);
 
-  const auto plate = study::compare_step<2>(problem, {study::Boundary::free, {20, 10}}, {.tolerance = 1e-6});
+  const auto plate = study::compare_step<2>(problem, free_plate<2>(problem, {20, 10}), {.tolerance = 1e-6});
   std::printf("20 x 10 plate, run:      %.6e s\n", plate.run.critical_time_step.value());
   std::printf("20 x 10 plate, theory:   %.6e s\n", plate.theory.critical_time_step.value());
 
   problem.scheme.kernel_normalisation = KernelNormalisation::sum;
-  const auto normalised = study::compare_step<2>(problem, {study::Boundary::free, {20, 10}}, {.tolerance = 1e-6});
+  const auto normalised = study::compare_step<2>(problem, free_plate<2>(problem, {20, 10}), {.tolerance = 1e-6});
   std::printf("the same, normalised:    %.6e s, %.3f of the infinite lattice\n",
               normalised.run.critical_time_step.value(),
               normalised.run.critical_time_step.value() / stable->critical_time_step);

@@ -9,10 +9,12 @@
 #include "analysis/amplification.hpp"
 #include "analysis/critical_step.hpp"
 #include "analysis/lattice_sums.hpp"
+#include "io/scene_input.hpp"
 #include "study/counts.hpp"
 #include "study/foreign_solver.hpp"
 #include "study/json_values.hpp"
 #include "study/rules_of_thumb.hpp"
+#include "study/scene_input.hpp"
 #include "study/step_comparison.hpp"
 
 namespace sphstab::study {
@@ -131,18 +133,29 @@ constexpr int default_patch_cells = Dim == 3 ? 8 : 16;
 /// Below it the runs would take millions of steps and rounding would decide.
 constexpr double least_tolerance = 1e-10;
 
+/// What bisect runs, with its problem and the name of it in the result.
 template <int Dim>
-BodyChoice<Dim> body_choice(const Case& input) {
-  const auto patch = make_size<Dim>(input, "patch"), plate = make_size<Dim>(input, "plate");
-  if (patch && plate) throw InvalidInput("patch: cannot be given with plate");
-  if (plate) return {Boundary::free, *plate};
-  return {Boundary::periodic, patch.value_or(LatticeIndex<Dim>::Constant(default_patch_cells<Dim>))};
+struct BisectionSubject {
+  Problem<Dim> problem;
+  BodyChoice<Dim> choice;
+  Json name;
+};
+
+template <int Dim>
+BisectionSubject<Dim> bisection_subject(const Case& input) {
+  if (names_body(input)) {
+    if (input.has("patch")) throw InvalidInput("patch: cannot be given with plate or scene");
+    Scene<Dim> scene = make_scene<Dim>(input);
+    return {scene.problem, std::move(scene.body), body_name(input)};
+  }
+  const auto cells = make_size<Dim>(input, "patch").value_or(LatticeIndex<Dim>::Constant(default_patch_cells<Dim>));
+  return {make_problem<Dim>(input),
+          PeriodicPatch<Dim>{cells},
+          {{"patch", std::vector<int>(cells.data(), cells.data() + Dim)}}};
 }
 
 template <int Dim>
 Json bisection_answer(const Case& input, const Request& request) {
-  const auto problem = make_problem<Dim>(input);
-  const auto choice = body_choice<Dim>(input);
   RunOptions options{.start_from_mode = input.required_word("seed") == "mode",
                      .noise_seed = static_cast<unsigned>(input.required_number("noise_seed")),
                      .tolerance = input.required_number("tolerance")};
@@ -154,21 +167,22 @@ Json bisection_answer(const Case& input, const Request& request) {
       request.progress(closed_fraction(low, high, options.tolerance));
     };
   const auto command = input.word("command");
-  const auto found = compare_step(problem, choice, options, command ? foreign_solver(*command) : nullptr);
-  const auto counts = std::vector<int>(choice.counts.data(), choice.counts.data() + Dim);
-  Json answer{{choice.boundary == Boundary::free ? "plate" : "patch", counts},
-              {"critical_time_step", number_or_null(found.run.critical_time_step)},
-              {"bracket", {found.run.low, std::isfinite(found.run.high) ? Json(found.run.high) : Json()}},
-              {"theory", number_or_null(found.theory.critical_time_step)},
-              {"relative_difference", number_or_null(found.relative_difference())},
-              {"tolerance", options.tolerance},
-              {"agrees", found.agrees(options.tolerance)},
-              {"bulk_theory", number_or_null(found.bulk_theory)},
-              {"patch_deficit", number_or_null(found.patch_deficit())},
-              {"horizon", found.run.horizon},
-              {"runs", found.run.runs},
-              {"steps", found.run.steps},
-              {"smallest_detectable_growth", found.run.smallest_detectable}};
+  const auto subject = bisection_subject<Dim>(input);
+  const auto found =
+      compare_step(subject.problem, subject.choice, options, command ? foreign_solver(*command) : nullptr);
+  Json answer = subject.name;
+  answer.update({{"critical_time_step", number_or_null(found.run.critical_time_step)},
+                 {"bracket", {found.run.low, std::isfinite(found.run.high) ? Json(found.run.high) : Json()}},
+                 {"theory", number_or_null(found.theory.critical_time_step)},
+                 {"relative_difference", number_or_null(found.relative_difference())},
+                 {"tolerance", options.tolerance},
+                 {"agrees", found.agrees(options.tolerance)},
+                 {"bulk_theory", number_or_null(found.bulk_theory)},
+                 {"patch_deficit", number_or_null(found.patch_deficit())},
+                 {"horizon", found.run.horizon},
+                 {"runs", found.run.runs},
+                 {"steps", found.run.steps},
+                 {"smallest_detectable_growth", found.run.smallest_detectable}});
   if (found.theory.growth_rate) answer["theory_growth_rate"] = *found.theory.growth_rate;
   return answer;
 }
@@ -206,7 +220,8 @@ Json matrix_answer(const Case& input, const Request&) {
 }
 
 Json bisection_answer(const Case& input, const Request& request) {
-  return in_dimension(input, [&](auto dimension) { return bisection_answer<dimension()>(input, request); });
+  const Case keys = io::with_scene_keys(input);
+  return in_dimension(keys, [&](auto dimension) { return bisection_answer<dimension()>(keys, request); });
 }
 
 Json sums_answer(const Case& input, const Request&) {

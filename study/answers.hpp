@@ -14,8 +14,12 @@ Json time_step_answer(const Case& input, const Request& request);
 /// `matrix`: the amplification matrix at one mode.
 Json matrix_answer(const Case& input, const Request& request);
 
-/// `bisect`: the critical step found by running, beside the theory of the same patch or plate.
+/// `bisect`: the critical step found by running, beside the theory of the same patch, plate or scene.
 Json bisection_answer(const Case& input, const Request& request);
+
+/// `spectrum`: the critical step of a whole plate or scene with its bracket and, with lowest_modes, its lowest
+/// frequencies and modes; their shapes into request.folder.
+Json spectrum_answer(const Case& input, const Request& request);
 
 /// `kernel` (batch only): W, dW, d2W and the normalisation at a distance.
 Json kernel_answer(const Case& input, const Request& request);

@@ -106,7 +106,7 @@ HardCase courant_case(const Subject<Dim>& subject, std::string_view expected_fro
                       double theory_tolerance = rounding) {
   const auto& problem = subject.problem;
   const double unit = problem.lattice.spacing() / p_wave_speed(problem);
-  const auto theory = theory_limit<Dim>(problem, {Boundary::periodic, subject.cells}).critical_time_step;
+  const auto theory = theory_limit<Dim>(problem, PeriodicPatch<Dim>{subject.cells}).critical_time_step;
   const auto found =
       bisect(GrowthRun<Dim>(problem, periodic_patch<Dim>(problem, subject.cells), 1), {.start = scan_start(problem)});
   return {.name = subject.name,
@@ -364,15 +364,15 @@ MakeCase after_onset(Plane plane, double beyond, bool run) {
   return [=] {
     const auto state = compressed<Dim>(plane, beyond);
     const auto& problem = state.problem;
-    const BodyChoice<Dim> patch{Boundary::periodic, four_cells<Dim>()};
+    const PeriodicPatch<Dim> patch{four_cells<Dim>()};
     const double unit = problem.lattice.spacing() / p_wave_speed(problem);
     HardCase result{.name = onset_name<Dim>(plane, beyond, "beyond") + ": growth rate",
                     .expected_from = "closed form of the pre-stressed scheme",
                     .expected = nearest_shell_maximum(problem) * std::sqrt(-state.softening),
-                    .theory = theory_limit(problem, patch).growth_rate.value_or(0.0) * unit,
+                    .theory = theory_limit<Dim>(problem, patch).growth_rate.value_or(0.0) * unit,
                     .theory_tolerance = rounding / beyond};
     if (!run) return result;
-    const auto body = periodic_patch<Dim>(problem, patch.counts);
+    const auto body = periodic_patch<Dim>(problem, patch.cells);
     const double time_step = growth_per_step * unit / result.expected;
     const auto fit = GrowthRun<Dim>(problem, body, fastest_wave(body))(time_step, 400);
     // Leapfrog: e^g + e^−g − 2 = r²Δt².

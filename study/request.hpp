@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/files.hpp"
 #include "model/case.hpp"
 
 namespace sphstab::study {
@@ -22,6 +23,7 @@ using Progress = std::function<void(double fraction)>;
 struct Request {
   Progress progress = nullptr;
   std::vector<std::string> results = {};  ///< the top-level keys that are wanted; empty: all
+  io::OutputFolder* folder = nullptr;     ///< for the files that belong to the answer, if they are wanted
 
   /// Whether a result that costs work of its own is wanted.
   bool wants(std::string_view key) const {

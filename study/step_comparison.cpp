@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "analysis/amplification.hpp"
-#include "analysis/body_operator.hpp"
 #include "analysis/critical_step.hpp"
+#include "analysis/spectrum.hpp"
 #include "study/growth_run.hpp"
 
 namespace sphstab::study {
@@ -22,18 +22,14 @@ constexpr double start_fraction = 0.3;
 
 template <int Dim>
 Body<Dim> make_body(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
-  switch (choice.boundary) {
-    case Boundary::periodic:
-      return periodic_patch<Dim>(problem, choice.counts);
-    case Boundary::free:
-      if (!problem.displacement_gradient.isZero())
-        throw InvalidInput("displacement_gradient: a free plate takes none, it would not be in equilibrium");
-      if (choice.counts.prod() > largest_dense_body)
-        throw InvalidInput(fmt::format("plate: {} particles are more than the {} of a dense spectrum",
-                                       choice.counts.prod(), largest_dense_body));
-      return free_plate<Dim>(problem, choice.counts);
-  }
-  return {};
+  if (const auto* patch = std::get_if<PeriodicPatch<Dim>>(&choice)) return periodic_patch(problem, patch->cells);
+  return std::get<Body<Dim>>(choice);
+}
+
+/// The spectrum is compared with runs, which are far less accurate than its residual: the cheapest bound will do.
+template <int Dim>
+analysis::BodyLimit limit_of(const Problem<Dim>& problem, const Body<Dim>& body) {
+  return analysis::body_limit(problem, body, {.bound = analysis::BoundKind::norm_bound});
 }
 
 template <int Dim>
@@ -78,9 +74,9 @@ double scan_start(const Problem<Dim>& problem) {
 
 template <int Dim>
 TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
-  if (choice.boundary == Boundary::free)
-    return {.critical_time_step = analysis::dense_body_limit(problem, make_body(problem, choice)).critical_time_step};
-  const auto limit = analysis::patch_limit(problem, choice.counts);
+  if (const auto* body = std::get_if<Body<Dim>>(&choice))
+    return {.critical_time_step = limit_of(problem, *body).critical_time_step};
+  const auto limit = analysis::patch_limit(problem, std::get<PeriodicPatch<Dim>>(choice).cells);
   if (const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit))
     return {.growth_rate = unstable->growth_rate};
   return {.critical_time_step = step_of<Dim>(limit)};
@@ -92,15 +88,15 @@ std::optional<double> bulk_step(const Problem<Dim>& problem) {
 }
 
 template <int Dim>
-solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice,
-                                              const Body<Dim>& body) {
-  solver::Field<Dim> displacement(body.size());
-  if (choice.boundary == Boundary::free) {
-    const Eigen::VectorXd mode = analysis::critical_displacement(problem, body);
-    for (int a = 0; a < body.size(); ++a) displacement[a] = mode.template segment<Dim>(Dim * a);
+solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
+  solver::Field<Dim> displacement;
+  if (const auto* body = std::get_if<Body<Dim>>(&choice)) {
+    const Eigen::VectorXd mode = limit_of(problem, *body).displacement;
+    for (int a = 0; a < body->size(); ++a) displacement.push_back(mode.template segment<Dim>(Dim * a));
     return displacement;
   }
-  const auto limit = analysis::patch_limit(problem, choice.counts);
+  const auto patch = make_body(problem, choice);
+  const auto limit = analysis::patch_limit(problem, std::get<PeriodicPatch<Dim>>(choice).cells);
   const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit);
   const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit);
   if (stable == nullptr && unstable == nullptr)
@@ -110,14 +106,16 @@ solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const
   int critical = 0;
   ((stable ? 1.0 : -1.0) * modes.eigenvalues().real()).maxCoeff(&critical);
   // An eighth of a wave off the origin: at a zone boundary a sine would vanish on every particle.
-  for (int a = 0; a < body.size(); ++a)
-    displacement[a] = modes.eigenvectors().col(critical).real() * std::cos(k.dot(body.position[a]) + std::atan(1.0));
+  for (const auto& x : patch.position)
+    displacement.push_back(modes.eigenvectors().col(critical).real() * std::cos(k.dot(x) + std::atan(1.0)));
   return displacement;
 }
 
 template <int Dim>
 StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,
                             const GrowthProbe& probe) {
+  if (std::holds_alternative<Body<Dim>>(choice) && !problem.displacement_gradient.isZero())
+    throw InvalidInput("displacement_gradient: a body takes none, it would not be in equilibrium");
   const auto body = make_body(problem, choice);
   const auto theory = theory_limit(problem, choice);
   const BisectionOptions search{.start = scan_start(problem),
@@ -125,8 +123,7 @@ StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& 
                                 .horizon = options.horizon,
                                 .progress = options.progress};
   const auto our_solver = [&]() -> GrowthProbe {
-    if (options.start_from_mode)
-      return GrowthRun<Dim>(problem, body, critical_mode_displacement(problem, choice, body));
+    if (options.start_from_mode) return GrowthRun<Dim>(problem, body, critical_mode_displacement(problem, choice));
     return GrowthRun<Dim>(problem, body, options.noise_seed);
   };
   const GrowthProbe run = probe ? probe : our_solver();
@@ -137,17 +134,17 @@ StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& 
 template double scan_start(const Problem<1>&);
 template TheoryLimit theory_limit(const Problem<1>&, const BodyChoice<1>&);
 template std::optional<double> bulk_step(const Problem<1>&);
-template solver::Field<1> critical_mode_displacement(const Problem<1>&, const BodyChoice<1>&, const Body<1>&);
+template solver::Field<1> critical_mode_displacement(const Problem<1>&, const BodyChoice<1>&);
 template StepComparison compare_step(const Problem<1>&, const BodyChoice<1>&, const RunOptions&, const GrowthProbe&);
 template double scan_start(const Problem<2>&);
 template TheoryLimit theory_limit(const Problem<2>&, const BodyChoice<2>&);
 template std::optional<double> bulk_step(const Problem<2>&);
-template solver::Field<2> critical_mode_displacement(const Problem<2>&, const BodyChoice<2>&, const Body<2>&);
+template solver::Field<2> critical_mode_displacement(const Problem<2>&, const BodyChoice<2>&);
 template StepComparison compare_step(const Problem<2>&, const BodyChoice<2>&, const RunOptions&, const GrowthProbe&);
 template double scan_start(const Problem<3>&);
 template TheoryLimit theory_limit(const Problem<3>&, const BodyChoice<3>&);
 template std::optional<double> bulk_step(const Problem<3>&);
-template solver::Field<3> critical_mode_displacement(const Problem<3>&, const BodyChoice<3>&, const Body<3>&);
+template solver::Field<3> critical_mode_displacement(const Problem<3>&, const BodyChoice<3>&);
 template StepComparison compare_step(const Problem<3>&, const BodyChoice<3>&, const RunOptions&, const GrowthProbe&);
 
 }  // namespace sphstab::study

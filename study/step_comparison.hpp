@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <variant>
+
 #include "model/body.hpp"
 #include "solver/state.hpp"
 #include "study/bisection.hpp"
 
 namespace sphstab::study {
 
-enum class Boundary { periodic, free };
-
-/// The body that is run: periodic cells of the lattice, or the particles of a free plate.
+/// Cells of the problem's lattice along each primitive vector, with periodic images.
 template <int Dim>
-struct BodyChoice {
-  Boundary boundary;
-  LatticeIndex<Dim> counts;
+struct PeriodicPatch {
+  LatticeIndex<Dim> cells;
 };
+
+/// What is run. Loads of a body do not count: growth is that of a perturbation.
+template <int Dim>
+using BodyChoice = std::variant<PeriodicPatch<Dim>, Body<Dim>>;
 
 struct RunOptions {
   bool start_from_mode = false;  ///< of the theory, instead of noise
@@ -24,8 +27,8 @@ struct RunOptions {
   std::function<void(double low, double high)> progress = nullptr;  ///< after each run
 };
 
-/// What theory says of one body: the admitted wave vectors of a patch, the spectrum of a plate. Neither value: nothing
-/// limits Δt.
+/// What theory says of what is run: the admitted wave vectors of a patch, the spectrum of a body. Neither value:
+/// nothing limits Δt.
 struct TheoryLimit {
   std::optional<double> critical_time_step = std::nullopt;
   std::optional<double> growth_rate = std::nullopt;  ///< of a body that grows at every Δt, 1 / time
@@ -39,14 +42,11 @@ struct StepComparison {
 
   /// |run − theory| / theory, if both exist.
   std::optional<double> relative_difference() const;
-  /// theory / bulk_theory − 1: a periodic patch misses the critical wave vector, a free plate has edges.
+  /// theory / bulk_theory − 1: a periodic patch misses the critical wave vector, a body has edges.
   std::optional<double> patch_deficit() const;
   /// Both steps exist and agree within the tolerance, or everything grows in both, or nothing does.
   bool agrees(double tolerance) const;
 };
-
-/// Plates with more particles are refused: the dense spectrum beside the run would take minutes.
-inline constexpr int largest_dense_body = 1600;
 
 /// Where a search by running starts, a rule of thumb well inside the stable range: 0.3 h over the p-wave speed, or 0.3
 /// over the damping rate, if that is less.
@@ -59,16 +59,14 @@ TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& cho
 template <int Dim>
 std::optional<double> bulk_step(const Problem<Dim>& problem);
 
-/// The displacement of the theory's critical mode on the body of that choice, up to a factor. Throws InvalidInput
-/// (`seed`) where no mode is critical.
+/// The displacement of the theory's critical mode on what is run, up to a factor. Throws InvalidInput (`seed`) where no
+/// mode is critical.
 template <int Dim>
-solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice,
-                                              const Body<Dim>& body);
+solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice);
 
-/// Finds the critical step of the body by running the solver with `probe` if given (a foreign solver), ours otherwise,
-/// and sets theory beside it. Where theory says that every step grows, one small step is run for as long as that growth
-/// needs to show. Throws InvalidInput (`displacement_gradient`) for a free plate with a base state, which is
-/// no equilibrium there, and (`plate`) if it is too large.
+/// Finds the critical step by running the solver with `probe` if given (a foreign solver), ours otherwise, and sets
+/// theory beside it. Where theory says that every step grows, one small step is run for as long as that growth needs to
+/// show. Throws InvalidInput (`displacement_gradient`) for a body with a base state, which is no equilibrium there.
 template <int Dim>
 StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,
                             const GrowthProbe& probe = nullptr);

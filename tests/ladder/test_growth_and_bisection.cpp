@@ -10,7 +10,7 @@
 #include "study/step_comparison.hpp"
 
 using namespace sphstab;
-using study::Boundary;
+using study::PeriodicPatch;
 
 namespace {
 
@@ -44,7 +44,7 @@ TEMPLATE_TEST_CASE_SIG("rung 5: above the limit a seeded mode grows by ln of the
       const double expected =
           std::log(analysis::mode_spectrum<Dim>(problem, limit.mode.wave_vector, time_step).spectral_radius);
       const auto patch = periodic_patch<Dim>(problem, cells);
-      const auto mode = study::critical_mode_displacement<Dim>(problem, {Boundary::periodic, cells}, patch);
+      const auto mode = study::critical_mode_displacement<Dim>(problem, PeriodicPatch<Dim>{cells});
       const auto fit = study::GrowthRun<Dim>(problem, patch, mode)(time_step, horizon);
       CHECK(fit.trend == solver::Trend::growing);
       CHECK(std::abs(fit.growth_per_step - expected) < growth_tolerance);
@@ -64,11 +64,11 @@ TEST_CASE("rung 5: a base state that theory calls never stable grows at the rate
     const double expected =
         std::log(analysis::mode_spectrum(problem, limit.mode.wave_vector, time_step).spectral_radius);
     const auto patch = periodic_patch<2>(problem, cells);
-    const auto mode = study::critical_mode_displacement<2>(problem, {Boundary::periodic, cells}, patch);
+    const auto mode = study::critical_mode_displacement<2>(problem, PeriodicPatch<2>{cells});
     const auto fit = study::GrowthRun<2>(problem, patch, mode)(time_step, 400);
     CHECK(fit.trend == solver::Trend::growing);
     CHECK(std::abs(fit.growth_per_step - expected) < growth_tolerance);
-    CHECK(study::compare_step<2>(problem, {Boundary::periodic, cells}, {}).agrees(bisection_tolerance));
+    CHECK(study::compare_step<2>(problem, PeriodicPatch<2>{cells}, {}).agrees(bisection_tolerance));
   }
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("rung 6: bisection finds the theory's limit for kernels, lattices, sup
           INFO(name_of(kernel) << " " << name_of(lattice) << " h/spacing " << h_over_spacing << " " << integrator_name);
           auto problem = ladder::basic_problem<2>(lattice, kernel, h_over_spacing);
           problem.integrator = integrator;
-          check_bisection<2>(problem, {Boundary::periodic, {8, 8}});
+          check_bisection<2>(problem, PeriodicPatch<2>{{8, 8}});
         }
 }
 
@@ -95,7 +95,7 @@ TEMPLATE_TEST_CASE_SIG("rung 6: bisection finds the theory's limit for every ter
       if (is_long && (integrator != Integrator::leapfrog || name != "damped cubic")) continue;
       problem.integrator = integrator;
       INFO(name << ", " << integrator_name);
-      check_bisection<Dim>(problem, {Boundary::periodic, ladder::running_patch<Dim>()});
+      check_bisection<Dim>(problem, PeriodicPatch<Dim>{ladder::running_patch<Dim>()});
     }
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("rung 6: the limit of a patch approaches the bulk limit from above as 
     for (const int n : {16, 32, 64}) {
       INFO("patch " << n);
       const auto found =
-          study::compare_step<2>(problem, {Boundary::periodic, {n, n}}, {.tolerance = bisection_tolerance});
+          study::compare_step<2>(problem, PeriodicPatch<2>{{n, n}}, {.tolerance = bisection_tolerance});
       REQUIRE(found.relative_difference());
       CHECK(*found.relative_difference() < bisection_tolerance);
       CHECK(*found.run.critical_time_step > *found.bulk_theory * (1.0 - bisection_tolerance));
@@ -131,7 +131,7 @@ TEST_CASE("rung 6: bisection on free plates finds the largest eigenvalue of the 
           auto problem = ladder::basic_problem<2>(LatticeKind::square, kernel, h_over_spacing);
           problem.scheme.kernel_normalisation = normalisation;
           problem.plane = plane;
-          check_bisection<2>(problem, {Boundary::free, {9, 7}});
+          check_bisection<2>(problem, free_plate<2>(problem, {9, 7}));
         }
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("rung 6: starting from the theory's mode or from other noise finds the
   const auto square = ladder::basic_problem<2>(LatticeKind::square, KernelFamily::cubic_spline, 1.31);
   for (const study::RunOptions& options : {study::RunOptions{.start_from_mode = true},
                                            study::RunOptions{.noise_seed = 2}, study::RunOptions{.noise_seed = 3}}) {
-    check_bisection<2>(hexagonal, {Boundary::periodic, {8, 6}}, options);
-    check_bisection<2>(square, {Boundary::free, {8, 6}}, options);
+    check_bisection<2>(hexagonal, PeriodicPatch<2>{{8, 6}}, options);
+    check_bisection<2>(square, free_plate<2>(square, {8, 6}), options);
   }
 }

@@ -56,7 +56,7 @@ TEST_CASE("the law of growth knows both ways to leave the unit circle, so that f
       auto problem = ladder::basic_problem<1>(LatticeKind::chain, KernelFamily::cubic_spline, 1.2);
       problem.integrator = integrator;
       if (damping > 0.0) problem.scheme.damping = Damping{damping};
-      const auto found = study::compare_step<1>(problem, {study::Boundary::periodic, LatticeIndex<1>(8)}, {});
+      const auto found = study::compare_step<1>(problem, study::PeriodicPatch<1>{LatticeIndex<1>(8)}, {});
       CHECK(found.agrees(1e-6));
       CHECK(found.run.runs <= enough_runs);
     }

@@ -124,7 +124,7 @@ TEST_CASE("Swegle's chain: compressed beyond one half every wave with strain gro
         CHECK(std::log(E.eigenvalues().cwiseAbs().maxCoeff()) == Approx(growth(k)).margin(growth_tolerance));
       }
       if (strain > -0.5001) continue;  // too slow for a run
-      const auto seed = study::critical_mode_displacement<1>(problem, {study::Boundary::periodic, cells}, patch);
+      const auto seed = study::critical_mode_displacement<1>(problem, study::PeriodicPatch<1>{cells});
       const auto seeded = study::GrowthRun<1>(problem, patch, seed)(time_step, 400);
       const auto noisy = study::GrowthRun<1>(problem, patch, 1)(time_step, 400);
       CHECK(seeded.trend == solver::Trend::growing);
