@@ -11,6 +11,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "model/errors.hpp"
+#include "study/plane_moduli.hpp"
 
 namespace sphstab::study {
 
@@ -25,20 +26,11 @@ void require_mode(int mode) {
   if (mode < 1) throw InvalidInput(fmt::format("mode: {} is not at least 1", mode));
 }
 
-double plane_poisson_ratio(const Material& material, Plane plane) {
-  const double nu = material.poisson_ratio();
-  return plane == Plane::strain ? nu / (1.0 - nu) : nu;
-}
-
-double plane_young_modulus(const Material& material, Plane plane) {
-  return 2.0 * material.shear_modulus() * (1.0 + plane_poisson_ratio(material, plane));
-}
-
 /// √(EI/ρA)/(2πL²): the frequency f of 2πf L² √(ρA/EI) = 1.
 double frequency_unit(const Beam& beam) {
   require_positive("length", beam.length);
   require_positive("height", beam.height);
-  const double stiffness = plane_young_modulus(beam.material, beam.plane) / beam.material.density();
+  const double stiffness = plane_moduli(beam.material, beam.plane).young_modulus / beam.material.density();
   return std::sqrt(stiffness / 12.0) * beam.height / (2.0 * pi * beam.length * beam.length);
 }
 
@@ -113,7 +105,7 @@ double euler_bernoulli_frequency(const Beam& beam, int mode) {
 }
 
 double cowper_shear_coefficient(const Material& material, Plane plane) {
-  const double nu = plane_poisson_ratio(material, plane);
+  const double nu = plane_moduli(material, plane).poisson_ratio;
   return 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
 }
 
@@ -121,7 +113,7 @@ double timoshenko_frequency(const Beam& beam, int mode, double shear_coefficient
   require_positive("shear_coefficient", shear_coefficient);
   const double unit = frequency_unit(beam), slenderness = beam.length / beam.height;
   const double r_squared = 1.0 / (12.0 * slenderness * slenderness);
-  const double modulus_ratio = plane_young_modulus(beam.material, beam.plane) / beam.material.shear_modulus();
+  const double modulus_ratio = plane_moduli(beam.material, beam.plane).young_modulus / beam.material.shear_modulus();
   const UnitBeam unit_beam{r_squared, r_squared * modulus_ratio / shear_coefficient, beam.ends};
   const double modes = mode + (beam.ends == BeamEnds::free_free ? 2 : 0);  // two rigid motions come first
   const auto side = [&](double b) { return modes_below(unit_beam, b) < modes ? -1.0 : 1.0; };

@@ -7,8 +7,8 @@ namespace sphstab::study {
 
 enum class BeamEnds { clamped_free, free_free };
 
-/// A uniform beam of rectangular section and unit width that bends in its plane. In plane strain E/(1−ν²) and ν/(1−ν)
-/// stand for E and ν; the shear modulus G is the same.
+/// A uniform beam of rectangular section and unit width that bends in its plane, with the moduli of
+/// study/plane_moduli.hpp.
 struct Beam {
   double length;
   double height;
