@@ -24,32 +24,21 @@ Eigen::Matrix<double, Dim, rigid_motions<Dim>> motions_at(const Vector<Dim>& x) 
   return motions;
 }
 
-template <int Dim>
-Vector<Dim> centre_of_mass(const Body<Dim>& body) {
-  Vector<Dim> sum = Vector<Dim>::Zero();
-  double mass = 0.0;
-  for (int a = 0; a < body.size(); ++a) {
-    sum += body.mass(a) * body.position[a];
-    mass += body.mass(a);
-  }
-  return sum / mass;
-}
-
 }  // namespace
 
 template <int Dim>
 std::vector<Vector<Dim>> remove_rigid_motion(const Body<Dim>& body, std::vector<Vector<Dim>> displacement) {
   using Amounts = Eigen::Matrix<double, rigid_motions<Dim>, 1>;
-  const Vector<Dim> centre = centre_of_mass(body);
+  const Vector<Dim> origin = body.position.front();  // near the body, so that rotations are little like translations
   Eigen::Matrix<double, rigid_motions<Dim>, rigid_motions<Dim>> inertia = decltype(inertia)::Zero();
   Amounts momentum = Amounts::Zero();
   for (int a = 0; a < body.size(); ++a) {
-    const auto motions = motions_at<Dim>(body.position[a] - centre);
+    const auto motions = motions_at<Dim>(body.position[a] - origin);
     inertia += body.mass(a) * motions.transpose() * motions;
     momentum += body.mass(a) * motions.transpose() * displacement[a];
   }
   const Amounts amounts = inertia.ldlt().solve(momentum);
-  for (int a = 0; a < body.size(); ++a) displacement[a] -= motions_at<Dim>(body.position[a] - centre) * amounts;
+  for (int a = 0; a < body.size(); ++a) displacement[a] -= motions_at<Dim>(body.position[a] - origin) * amounts;
   return displacement;
 }
 
