@@ -125,17 +125,29 @@ std::string read_file(const fs::path& path) {
 }
 
 void write_file(const fs::path& path, std::string_view text, Existing existing) {
-  naming(path, [&] {
-    const fs::path target = output_place(path, existing);
-    const fs::path assembly = hidden_neighbour(target);
-    const Discard discard{assembly};
-    write_to_disk(assembly, text);
-    fs::rename(assembly, target);
-  });
+  PendingFile file(path, existing);
+  naming(path, [&] { write_to_disk(file.assembly(), text); });
+  file.commit();
 }
 
 void check_output(const fs::path& path, Existing existing) {
   naming(path, [&] { output_place(path, existing); });
+}
+
+PendingFile::PendingFile(const fs::path& path, Existing existing) {
+  naming(path, [&] {
+    path_ = output_place(path, existing);
+    assembly_ = hidden_neighbour(path_);
+  });
+}
+
+PendingFile::~PendingFile() { const Discard discard{assembly_}; }
+
+void PendingFile::commit() {
+  naming(path_, [&] {
+    if (::fsync(Descriptor(assembly_, O_RDONLY).get()) != 0) throw_errno();
+    fs::rename(assembly_, path_);
+  });
 }
 
 OutputFolder::OutputFolder(const fs::path& path, Existing existing) {
@@ -153,12 +165,16 @@ OutputFolder::OutputFolder(const fs::path& path, Existing existing) {
 
 OutputFolder::~OutputFolder() { const Discard discard{assembly_}; }
 
-void OutputFolder::write(const fs::path& name, std::string_view text) {
-  naming(path_ / name, [&] {
+fs::path OutputFolder::assembly(const fs::path& name) {
+  return naming(path_ / name, [&] {
     if (fs::exists(assembly_ / name)) fail(path_ / name, "is written twice");
     fs::create_directories((assembly_ / name).parent_path());
-    write_to_disk(assembly_ / name, text);
+    return assembly_ / name;
   });
+}
+
+void OutputFolder::write(const fs::path& name, std::string_view text) {
+  naming(path_ / name, [&] { write_to_disk(assembly(name), text); });
 }
 
 void OutputFolder::commit() {

@@ -23,6 +23,27 @@ void write_file(const std::filesystem::path& path, std::string_view text, Existi
 /// Throws what write_file would throw for the place alone, so that it is known before the work.
 void check_output(const std::filesystem::path& path, Existing existing = Existing::refuse);
 
+/// A file that a library writes for itself: at a hidden place beside its own, where commit() moves it; without commit()
+/// nothing remains.
+class PendingFile {
+ public:
+  /// Throws what check_output throws.
+  explicit PendingFile(const std::filesystem::path& path, Existing existing = Existing::refuse);
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  /// Where to write it.
+  const std::filesystem::path& assembly() const { return assembly_; }
+
+  /// Throws InvalidInput naming the path and the reason.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path assembly_;
+};
+
 /// A folder of results that appears when it is complete. The files are assembled in a hidden folder beside it; commit()
 /// moves them in, among the files that are there already if the folder existed; without commit() nothing remains.
 class OutputFolder {
@@ -37,6 +58,9 @@ class OutputFolder {
   /// Adds a file; `name` is relative to the folder and may lie in folders below it, which are made. Throws InvalidInput
   /// like write_file, and if the name was written before.
   void write(const std::filesystem::path& name, std::string_view text);
+
+  /// Where a library may write such a file for itself, before commit(). Throws like write().
+  std::filesystem::path assembly(const std::filesystem::path& name);
 
   /// Throws InvalidInput, before anything is moved, where a folder stands in the place of a file or the reverse.
   void commit();

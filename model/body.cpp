@@ -14,8 +14,12 @@
 namespace sphstab {
 namespace {
 
-/// Cells along each axis have an index of their own below it: three of them fit into 63 bits.
-constexpr std::int64_t cells_per_axis = std::int64_t{1} << 21;
+/// The index of a cell along an axis is kept modulo this power of two, so that three of them fit into 63 bits. Cells
+/// that far apart share a key, which costs a distance; neighbouring ones never do.
+constexpr int bits_per_axis = 21;
+constexpr std::int64_t cells_per_axis = std::int64_t{1} << bits_per_axis;
+/// Indices of cells stop here: so far out no two doubles that differ are within a support of each other.
+constexpr double farthest_cell = 0x1p60;
 
 enum class Boundary { periodic, free };
 
@@ -70,16 +74,15 @@ template <int Dim>
 NeighbourPairs<Dim> find_pairs(const std::vector<Vector<Dim>>& position, double support) {
   NeighbourPairs<Dim> pairs;
   pairs.first.push_back(0);
-  if (position.empty()) return pairs;
 
-  // Particles sorted by cell; cells are kept sorted by index, so that empty ones take no room.
-  Vector<Dim> origin = position.front();
-  for (const auto& x : position) origin = origin.cwiseMin(x);
+  // Particles sorted by cell; cells are kept sorted by key, so that empty ones take no room.
   using Cell = Eigen::Matrix<std::int64_t, Dim, 1>;
-  const auto cell_of = [&](int a) -> Cell { return ((position[a] - origin) / support).template cast<std::int64_t>(); };
+  const auto cell_of = [&](int a) -> Cell {
+    return (position[a] / support).array().floor().max(-farthest_cell).min(farthest_cell).template cast<std::int64_t>();
+  };
   const auto key_of = [](const Cell& cell) {
     std::int64_t key = 0;
-    for (int axis = Dim - 1; axis >= 0; --axis) key = key * cells_per_axis + cell[axis] + 1;
+    for (int axis = Dim - 1; axis >= 0; --axis) key = key << bits_per_axis | (cell[axis] & (cells_per_axis - 1));
     return key;
   };
   std::vector<std::pair<std::int64_t, int>> sorted;

@@ -25,18 +25,6 @@ void require_length(std::string_view key, std::size_t given, std::size_t needed)
   if (given != needed) throw InvalidInput(fmt::format("{}: has {} components, but {} are needed", key, given, needed));
 }
 
-Material make_material(const Case& input) {
-  for (const auto one : {"young_modulus", "poisson_ratio"})
-    for (const auto other : {"bulk_modulus", "shear_modulus"}) refuse_both(input, one, other);
-  const double density = input.required_number("density");
-  if (input.has("bulk_modulus") || input.has("shear_modulus")) {
-    const double bulk_modulus = input.required_number("bulk_modulus");
-    return Material::from_bulk_modulus(density, bulk_modulus, input.required_number("shear_modulus"));
-  }
-  const double young_modulus = input.required_number("young_modulus");
-  return Material::from_young_modulus(density, young_modulus, input.required_number("poisson_ratio"));
-}
-
 Scheme make_scheme(const Case& input) {
   Scheme scheme{.formulation = enumerator<Formulation>(input, "scheme"),
                 .momentum_density = enumerator<MomentumDensity>(input, "density_in_momentum"),
@@ -114,6 +102,18 @@ Lattice<Dim> make_lattice(const Case& input) {
 }
 
 NeighbourRule neighbour_rule(const Case& input) { return enumerator<NeighbourRule>(input, "neighbours"); }
+
+Material make_material(const Case& input) {
+  for (const auto one : {"young_modulus", "poisson_ratio"})
+    for (const auto other : {"bulk_modulus", "shear_modulus"}) refuse_both(input, one, other);
+  const double density = input.required_number("density");
+  if (input.has("bulk_modulus") || input.has("shear_modulus")) {
+    const double bulk_modulus = input.required_number("bulk_modulus");
+    return Material::from_bulk_modulus(density, bulk_modulus, input.required_number("shear_modulus"));
+  }
+  const double young_modulus = input.required_number("young_modulus");
+  return Material::from_young_modulus(density, young_modulus, input.required_number("poisson_ratio"));
+}
 
 template <int Dim>
 Problem<Dim> make_problem(const Case& input) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "model/body.hpp"
+#include "model/placement.hpp"
 
 namespace sphstab {
 
@@ -24,5 +27,83 @@ struct Scene {
   Body<Dim> body;
   std::vector<Probe> probes;
 };
+
+/// A body of a scene: where its particles are and which of the scene's materials they are made of.
+template <int Dim>
+struct ScenePart {
+  std::string name;
+  Placement<Dim> placement;
+  int material = 0;
+};
+
+/// Particles that are held in some directions: those that lie in the region in the reference state.
+template <int Dim>
+struct Clamp {
+  Shape<Dim> region;
+  Directions<Dim> directions;
+};
+
+/// t(x) = value + gradient · (x − origin), a force per area.
+template <int Dim>
+struct AffineTraction {
+  Vector<Dim> value;
+  Tensor<Dim> gradient = Tensor<Dim>::Zero();
+  Vector<Dim> origin = Vector<Dim>::Zero();
+};
+
+/// A force per area of constant parts along and across the radius r from a centre: t = radial e_r + shear e_θ, outwards
+/// and anticlockwise. Where the surface is at the radius R = `at_radius` and the particles that carry its load are at
+/// another, t is radial (R/r)^(d−1) e_r + shear (R/r)^d e_θ, which keeps the radial force and the torque of the
+/// surface.
+template <int Dim>
+struct CentredTraction {
+  Vector<Dim> centre;
+  double radial = 0.0;
+  double shear = 0.0;                    ///< 2-D
+  std::optional<double> at_radius = {};  ///< none: t is that of the particles' own radius
+};
+
+/// A traction t on the particles of a region, which are a layer of the thickness D at the surface: the force t/(ρ D)
+/// per mass. On cells of the area V/D each that cover the surface it adds up to the force on the surface.
+template <int Dim>
+struct Traction {
+  Shape<Dim> region;
+  std::variant<AffineTraction<Dim>, CentredTraction<Dim>> stress;
+  std::optional<double> layer = {};  ///< D; none: the spacing, or the thickness of a ring of a polar arrangement
+};
+
+/// The particle nearest to the position; of several at one distance that with the lowest index.
+template <int Dim>
+struct ProbeSite {
+  std::string name;
+  Vector<Dim> position;
+};
+
+/// What a scene file says, free of its format. Regions, positions and materials are those of the reference state.
+template <int Dim>
+struct SceneDescription {
+  std::string name;
+  Problem<Dim> problem;
+  std::vector<Material> materials;  ///< that parts choose from
+  std::vector<ScenePart<Dim>> parts;
+  std::vector<Clamp<Dim>> clamps = {};
+  std::vector<Traction<Dim>> tractions = {};
+  Vector<Dim> gravity = Vector<Dim>::Zero();
+  std::vector<ProbeSite<Dim>> probes = {};
+};
+
+/// Pairs of neighbours that a scene may have: some ten gigabytes.
+inline constexpr double most_pairs = 5e8;
+
+/// Places, holds and loads the particles and finds their neighbours. Throws InvalidInput beginning with the number of
+/// the part ("body 2: …"), clamp, traction or probe where it cannot: see place_particles; where a region holds no
+/// particle; where two particles are in one place or one has no neighbour; where there would be more than `most_pairs`;
+/// and for the neighbours `nearest` where particles are not on one lattice. Tested in tests/model/test_scene.cpp.
+template <int Dim>
+Scene<Dim> make_scene(const SceneDescription<Dim>& description);
+
+extern template Scene<1> make_scene(const SceneDescription<1>&);
+extern template Scene<2> make_scene(const SceneDescription<2>&);
+extern template Scene<3> make_scene(const SceneDescription<3>&);
 
 }  // namespace sphstab

@@ -7,7 +7,7 @@
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 log=$root/build/setup.log
 packages=(g++ cmake ninja-build libeigen3-dev libboost-dev libfmt-dev catch2 libcli11-dev libtomlplusplus-dev
-  nlohmann-json3-dev gnuplot-nox patch)
+  nlohmann-json3-dev libhdf5-dev gnuplot-nox patch)
 
 say() { printf '%s\n' "$*" >&2; }
 

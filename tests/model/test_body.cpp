@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace sphstab;
 
@@ -108,4 +109,21 @@ TEST_CASE("the pairs of scattered particles are those that brute force finds, ea
       CHECK((pairs.separation[entry] - (position[a] - position[pairs.neighbour[entry]])).norm() == 0.0);
   }
   CHECK(pairs.first[1] == 0);
+}
+
+TEST_CASE("particles at any distance have their own neighbours only", "[fast]") {
+  constexpr double support = 0.5;
+  const double beyond_the_cells = std::ldexp(support, 21);  // where a cell shares its key with one at the origin
+  std::vector<Vector<3>> position;
+  for (const double far : {0.0, beyond_the_cells, -beyond_the_cells, 1e12, -1e12, 1e300, -1e308})
+    for (const auto& direction : {Vector<3>(1.0, 0.0, 0.0), Vector<3>(0.0, 1.0, 0.0), Vector<3>(0.0, 0.0, -1.0)}) {
+      if (far == 0.0 && direction[0] == 0.0) continue;
+      position.push_back(far * direction);
+      position.push_back(far * direction + Vector<3>(0.25, 0.25, 0.25));
+    }
+  const auto pairs = find_pairs<3>(position, support);
+  for (int a = 0; a < pairs.particles(); ++a) {
+    REQUIRE(pairs.first[a + 1] - pairs.first[a] == 1);
+    CHECK(pairs.neighbour[pairs.first[a]] == (a ^ 1));
+  }
 }

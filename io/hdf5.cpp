@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "io/hdf5.hpp"
+
+#include <hdf5.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+#include <type_traits>
+
+namespace sphstab::io {
+namespace {
+
+static_assert(std::is_same_v<hid_t, std::int64_t>);
+
+/// The result of a call, which is negative where it failed; errno then says why if the system refused something.
+template <class Result>
+Result checked(Result result) {
+  if (result < 0) throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), "HDF5");
+  return result;
+}
+
+/// Something of HDF5 that is closed when it goes.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(checked(id)), close_(close) {}
+  ~Handle() { close_(id_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  hid_t get() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void write_set(hid_t file, const std::string& name, hid_t file_type, hid_t memory_type, const void* values,
+               std::size_t size, int columns) {
+  errno = 0;
+  const std::array<hsize_t, 2> shape{size / columns, static_cast<hsize_t>(columns)};
+  const Handle space(H5Screate_simple(columns == 1 ? 1 : 2, shape.data(), nullptr), H5Sclose);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose), creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  checked(H5Pset_create_intermediate_group(links.get(), 1));
+  checked(H5Pset_obj_track_times(creation.get(), false));
+  const Handle set(H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
+                   H5Dclose);
+  checked(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(const std::filesystem::path& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints nothing
+  errno = 0;
+  file_ = checked(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT));
+}
+
+Hdf5File::~Hdf5File() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5File::write(const std::string& name, const std::vector<double>& values, int columns) {
+  write_set(file_, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), values.size(), columns);
+}
+
+void Hdf5File::write(const std::string& name, const std::vector<int>& values) {
+  write_set(file_, name, H5T_STD_I32LE, H5T_NATIVE_INT, values.data(), values.size(), 1);
+}
+
+void Hdf5File::close() {
+  errno = 0;
+  checked(H5Fflush(file_, H5F_SCOPE_LOCAL));
+  checked(H5Fclose(file_));
+  file_ = -1;
+}
+
+}  // namespace sphstab::io
