@@ -23,7 +23,9 @@ Tensor<Dim, Scalar> displacement_gradient_term(const Vector<Dim, Scalar>& s_a, c
   return (s_b - s_a) * g_ab.transpose();
 }
 
-/// (P_a + P_b) · g_ab with P = ρ0 σ/ρ²: the summand of Eq. 7, with m_b = ρ0 V_b and σ = pδ + Gε, positive in tension.
+/// (P_a + P_b) · g_ab with P = (ρ0/ρ)² σ and σ = pδ + Gε, positive in tension; the sum over b is the force per volume.
+/// In one material it is ρ0 times the summand of Eq. 7, with m_b = ρ0 V_b. Where densities differ, Eq. 7 as printed,
+/// m_b (σ_a/ρ_a² + σ_b/ρ_b²), is not the adjoint of Eq. 9 and keeps no energy; this sum is and does.
 template <class Scalar, int Dim>
 Vector<Dim, Scalar> momentum_term(const Tensor<Dim, Scalar>& P_a, const Tensor<Dim, Scalar>& P_b,
                                   const Vector<Dim, Real<Scalar>>& g_ab) {

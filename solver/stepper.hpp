@@ -24,27 +24,27 @@ void drift(Real<Scalar> time_step, State<Dim, Scalar>& state) {
   for (std::size_t a = 0; a < state.displacement.size(); ++a) state.displacement[a] += time_step * state.velocity[a];
 }
 
-/// `steps` steps of the integrator for F(r, v) = A(r) − c v, where elastic(displacement, A) writes A into the buffer.
+/// `steps` steps of the integrator for F(r, v) = A(r) − c v, where undamped(displacement, A) writes A into the buffer.
 /// Zhang's Eqs. 10 and 11 are `leapfrog` with v of the half step before. A pure function of (r, v): a call with n steps
 /// is n calls with one. It evaluates A n times with leapfrog and n + 1 times with Verlet, whose steps share the A
 /// between them, damped or not. Checked in tests/solver/test_stepper.cpp.
-template <int Dim, class Scalar, class Elastic>
-void advance(Integrator integrator, const Elastic& elastic, const std::optional<Damping>& damping,
+template <int Dim, class Scalar, class Undamped>
+void advance(Integrator integrator, const Undamped& undamped, const std::optional<Damping>& damping,
              Real<Scalar> time_step, long steps, State<Dim, Scalar>& state, Field<Dim, Scalar>& A) {
   switch (integrator) {
     case Integrator::leapfrog:
       for (long n = 0; n < steps; ++n) {
-        elastic(state.displacement, A);
+        undamped(state.displacement, A);
         kick<Dim, Scalar>(A, damping, time_step, state.velocity);
         drift(time_step, state);
       }
       return;
     case Integrator::verlet:
-      elastic(state.displacement, A);
+      undamped(state.displacement, A);
       for (long n = 0; n < steps; ++n) {
         kick<Dim, Scalar>(A, damping, time_step / 2, state.velocity);
         drift(time_step, state);
-        elastic(state.displacement, A);
+        undamped(state.displacement, A);
         kick<Dim, Scalar>(A, damping, time_step / 2, state.velocity);
       }
       return;

@@ -2,7 +2,6 @@
 #include "study/growth_run.hpp"
 
 #include <cmath>
-#include <numeric>
 #include <random>
 #include <vector>
 
@@ -14,7 +13,7 @@ using solver::GrowthFit;
 using solver::State;
 using solver::Trend;
 
-/// Size of the perturbation, √(strain energy / (p-wave modulus · volume)): a strain. Six digits above rounding even on
+/// Size of the perturbation, √(strain energy / that of a strain of 1): a strain. Six digits above rounding even on
 /// a base state of strain 1, so that noise of the arithmetic stays small beside it.
 constexpr double seed_strain = 1e-10;
 /// A linear scheme may grow until the modes have parted; a nonlinear one must stay below strains of 2e-5, where the
@@ -50,6 +49,22 @@ GrowthFit explosion(const std::vector<double>& log_amplitude, int stride) {
   return {Trend::growing, (log_amplitude.back() - log_amplitude.front()) / steps, 0.0, 1.0, static_cast<long>(steps)};
 }
 
+/// Growth is that of a perturbation, which loads do not drive.
+template <int Dim>
+Body<Dim> without_loads(Body<Dim> body) {
+  body.load.clear();
+  return body;
+}
+
+/// Σ_a (λ + 2G)_a V_a, an energy: that of a strain of 1.
+template <int Dim>
+double energy_of_unit_strain(const Problem<Dim>& problem, const Body<Dim>& body) {
+  double energy = 0.0;
+  for (int a = 0; a < body.size(); ++a)
+    energy += body.material_of(a).lame(problem.plane).p_wave_modulus() * body.volume[a];
+  return energy;
+}
+
 template <int Dim>
 void add_scaled(Field<Dim>& field, double factor, const Field<Dim>& other) {
   for (std::size_t a = 0; a < field.size(); ++a) field[a] += factor * other[a];
@@ -63,15 +78,15 @@ GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, un
 
 template <int Dim>
 GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& displacement)
-    : simulation_(problem, body),
-      energy_scale_(problem.material.lame(problem.plane).p_wave_modulus() *
-                    std::accumulate(body.volume.begin(), body.volume.end(), 0.0)),
+    : simulation_(problem, without_loads(body)),
+      energy_scale_(energy_of_unit_strain(problem, body)),
       largest_e_foldings_(problem.scheme.momentum_density == MomentumDensity::frozen ? linear_e_foldings
                                                                                      : nonlinear_e_foldings),
       seed_(body.size()) {
   seed_.displacement = displacement;
+  simulation_.hold(seed_);
   double square = 0.0;
-  for (const auto& s : displacement) square += s.squaredNorm() / static_cast<double>(body.size());
+  for (const auto& s : seed_.displacement) square += s.squaredNorm() / static_cast<double>(body.size());
   if (!(amplitude(seed_) > smallest_strain * std::sqrt(square) / problem.kernel.smoothing_length()))
     throw InvalidInput("patch: no perturbation of it has a strain energy (zero-energy modes only); take a larger one");
   scale_to_seed(seed_);

@@ -10,7 +10,8 @@
 
 namespace sphstab::study {
 
-/// Runs one body at one time step after another and measures how the strain energy of a small perturbation grows.
+/// Runs one body at one time step after another and measures how the strain energy of a small perturbation grows. The
+/// body is run without its loads, and the perturbation obeys its clamps.
 ///
 /// A run starts from noise in the displacements, or from a given displacement, at rest (so that zero-energy modes do
 /// not even drift). After a growing run the fastest mode is known to the solver: the next run starts from it with a
@@ -36,7 +37,7 @@ class GrowthRun {
   bool run(long end, double time_step, int stride, solver::State<Dim>& state, std::vector<double>& log_amplitude);
 
   solver::Simulation<Dim> simulation_;
-  double energy_scale_;        ///< p-wave modulus times volume
+  double energy_scale_;        ///< of a strain of 1
   double largest_e_foldings_;  ///< of a run
   solver::State<Dim> seed_;
   std::optional<solver::State<Dim>> fastest_mode_;
