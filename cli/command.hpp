@@ -38,6 +38,7 @@ CaseCommand matrix_command();
 CaseCommand dispersion_command();
 CaseCommand bisect_command();
 CaseCommand spectrum_command();
+CaseCommand run_command();
 
 /// Every command that answers a case, those of `batch` alone (`kernel`, `sums`) included.
 std::span<const CaseCommand> case_commands();

@@ -214,12 +214,13 @@ class Program {
 }  // namespace
 
 std::span<const CaseCommand> case_commands() {
-  static const std::array<CaseCommand, 7> commands{
+  static const std::array<CaseCommand, 8> commands{
       dt_command(),
       matrix_command(),
       dispersion_command(),
       bisect_command(),
       spectrum_command(),
+      run_command(),
       CaseCommand{"kernel",
                   "a kernel and its derivatives at a distance",
                   {KeyGroup::discretisation, KeyGroup::distance},

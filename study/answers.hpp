@@ -21,6 +21,10 @@ Json bisection_answer(const Case& input, const Request& request);
 /// frequencies and modes; their shapes into request.folder.
 Json spectrum_answer(const Case& input, const Request& request);
 
+/// `run`: a scene from rest, for `duration`, at `time_step` or `step_fraction` of its critical step. States (HDF5 with
+/// its XDMF companion), pictures, probes and a summary into request.folder. `unstable` if it has grown beyond bounds.
+Json run_answer(const Case& input, const Request& request);
+
 /// `kernel` (batch only): W, dW, d2W and the normalisation at a distance.
 Json kernel_answer(const Case& input, const Request& request);
 
