@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "study/step_comparison.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "analysis/amplification.hpp"
-#include "analysis/body_operator.hpp"
 #include "analysis/critical_step.hpp"
+#include "analysis/spectrum.hpp"
 #include "study/growth_run.hpp"
 
 namespace sphstab::study {
@@ -28,9 +26,6 @@ Body<Dim> make_body(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) 
     case Boundary::free:
       if (!problem.displacement_gradient.isZero())
         throw InvalidInput("displacement_gradient: a free plate takes none, it would not be in equilibrium");
-      if (choice.counts.prod() > largest_dense_body)
-        throw InvalidInput(fmt::format("plate: {} particles are more than the {} of a dense spectrum",
-                                       choice.counts.prod(), largest_dense_body));
       return free_plate<Dim>(problem, choice.counts);
   }
   return {};
@@ -79,7 +74,7 @@ double scan_start(const Problem<Dim>& problem) {
 template <int Dim>
 TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
   if (choice.boundary == Boundary::free)
-    return {.critical_time_step = analysis::dense_body_limit(problem, make_body(problem, choice)).critical_time_step};
+    return {.critical_time_step = analysis::body_limit(problem, make_body(problem, choice)).critical_time_step};
   const auto limit = analysis::patch_limit(problem, choice.counts);
   if (const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit))
     return {.growth_rate = unstable->growth_rate};
@@ -96,7 +91,7 @@ solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const
                                               const Body<Dim>& body) {
   solver::Field<Dim> displacement(body.size());
   if (choice.boundary == Boundary::free) {
-    const Eigen::VectorXd mode = analysis::critical_displacement(problem, body);
+    const Eigen::VectorXd mode = analysis::body_limit(problem, body).displacement;
     for (int a = 0; a < body.size(); ++a) displacement[a] = mode.template segment<Dim>(Dim * a);
     return displacement;
   }

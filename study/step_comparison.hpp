@@ -45,9 +45,6 @@ struct StepComparison {
   bool agrees(double tolerance) const;
 };
 
-/// Plates with more particles are refused: the dense spectrum beside the run would take minutes.
-inline constexpr int largest_dense_body = 1600;
-
 /// Where a search by running starts, a rule of thumb well inside the stable range: 0.3 h over the p-wave speed, or 0.3
 /// over the damping rate, if that is less.
 template <int Dim>
@@ -68,7 +65,7 @@ solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const
 /// Finds the critical step of the body by running the solver with `probe` if given (a foreign solver), ours otherwise,
 /// and sets theory beside it. Where theory says that every step grows, one small step is run for as long as that growth
 /// needs to show. Throws InvalidInput (`displacement_gradient`) for a free plate with a base state, which is
-/// no equilibrium there, and (`plate`) if it is too large.
+/// no equilibrium there.
 template <int Dim>
 StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,
                             const GrowthProbe& probe = nullptr);
