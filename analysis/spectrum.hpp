@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "analysis/critical_step.hpp"
@@ -14,7 +14,7 @@ namespace sphstab::analysis {
 /// What proves that no frequency of a body lies above the bracket.
 enum class BoundKind {
   factorisation,  ///< σ M − S has a Cholesky factorisation: no eigenvalue above σ
-  norm_bound,     ///< particle by particle, as explicit finite-element codes bound it element by element: proven, loose
+  norm_bound,     ///< the largest row sum of M^−½ S M^−½ (Gershgorin): proven, loose
   probabilistic   ///< Lanczos from a random start; the probability that it fails is stated
 };
 
@@ -38,6 +38,8 @@ struct BodyLimitOptions {
   std::optional<BoundKind> bound = std::nullopt;  ///< absent: the tightest that the size of the body allows
   double tolerance = 1e-10;                       ///< relative, of the largest eigenvalue
   unsigned seed = 1;                              ///< of the random start
+  double failure_probability = 1e-12;             ///< of a probabilistic bound
+  double probabilistic_width = 1e-2;              ///< relative, of a probabilistic bound on the eigenvalue
   std::function<void(double fraction)> progress = nullptr;
 };
 
@@ -53,12 +55,21 @@ struct BodyLimit {
   Eigen::VectorXd displacement;  ///< of the mode, components of a particle adjacent, clamped ones 0; up to a factor
 };
 
-/// Throws InvalidInput if no particle feels a force, and for what the scheme does not define on a body.
+/// The largest ω² of M d²s/dt² = −S s (analysis/body_operator.hpp) by Lanczos, never above the true one but for
+/// rounding, and an upper bound on it (docs/spectrum.md): with `factorisation` within the tolerance or what the
+/// factorisation rounds. Absent `options.bound`: a factorisation up to 100 000 particles if it takes minutes and 4 GB
+/// at most, otherwise the lesser of the two other bounds. Throws InvalidInput if no particle feels a force, for what
+/// the scheme does not define on a body, and for a factorisation that is asked for and too large (`upper_bound`).
+/// Tested in tests/analysis/test_spectrum.cpp.
 template <int Dim>
 BodyLimit body_limit(const Problem<Dim>& problem, const Body<Dim>& body, const BodyLimitOptions& options = {});
 
-/// What a low mode is.
-enum class BodyModeKind { vibration, rigid, zero_energy };
+/// What a low mode is: see docs/spectrum.md for what separates them.
+enum class BodyModeKind {
+  vibration,
+  rigid,       ///< a translation or rotation of a body, or of parts of it that do not touch
+  zero_energy  ///< particles move against each other and hardly any strain is felt
+};
 
 struct BodyMode {
   double omega;
@@ -66,13 +77,26 @@ struct BodyMode {
   Eigen::VectorXd displacement;  ///< as in BodyLimit
 };
 
-/// The `count` lowest modes, ascending.
+/// The `count` lowest modes, ascending, or all that there are. Throws InvalidInput (`lowest_modes`) if `count` is not
+/// positive or the body is too large to be factorised. Tested in tests/analysis/test_body_modes.cpp.
 template <int Dim>
 std::vector<BodyMode> lowest_modes(const Problem<Dim>& problem, const Body<Dim>& body, int count);
 
-/// The displacement in equilibrium under body.load, by conjugate gradients, orthogonal to the motions that meet no
-/// resistance. Throws InvalidInput where the load drives such a motion: there is no equilibrium.
+/// The displacement in equilibrium under body.load, S s = M load, by conjugate gradients, orthogonal to the motions
+/// that meet no resistance. Throws InvalidInput where the load drives such a motion: there is no equilibrium; and for
+/// `density_in_momentum` equation-of-state, which is not linear in the load. Tested in
+/// tests/analysis/test_body_modes.cpp.
 template <int Dim>
 Eigen::VectorXd static_displacement(const Problem<Dim>& problem, const Body<Dim>& body);
+
+extern template BodyLimit body_limit(const Problem<1>&, const Body<1>&, const BodyLimitOptions&);
+extern template BodyLimit body_limit(const Problem<2>&, const Body<2>&, const BodyLimitOptions&);
+extern template BodyLimit body_limit(const Problem<3>&, const Body<3>&, const BodyLimitOptions&);
+extern template std::vector<BodyMode> lowest_modes(const Problem<1>&, const Body<1>&, int);
+extern template std::vector<BodyMode> lowest_modes(const Problem<2>&, const Body<2>&, int);
+extern template std::vector<BodyMode> lowest_modes(const Problem<3>&, const Body<3>&, int);
+extern template Eigen::VectorXd static_displacement(const Problem<1>&, const Body<1>&);
+extern template Eigen::VectorXd static_displacement(const Problem<2>&, const Body<2>&);
+extern template Eigen::VectorXd static_displacement(const Problem<3>&, const Body<3>&);
 
 }  // namespace sphstab::analysis

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <Eigen/IterativeLinearSolvers>
+#include <algorithm>
+
+#include "analysis/body_operator.hpp"
+#include "analysis/rigid_motions.hpp"
+#include "analysis/spectrum.hpp"
+
+namespace sphstab::analysis {
+namespace {
+
+/// Relative residual of the equilibrium, M^−½-weighted.
+constexpr double residual_tolerance = 1e-12;
+
+/// A resultant below this, relative to the sum of the forces, is the rounding of a load in balance.
+constexpr double in_balance = 1e-10;
+
+constexpr int most_iterations = 100000;
+
+/// Throws InvalidInput if the load drives a part of the body in a direction in which nothing of it is clamped.
+template <int Dim>
+void require_balance(const Body<Dim>& body, const BodyOperator<Dim>& op, const Eigen::VectorXd& weighted_load) {
+  for (const auto& part : connected_parts(body.pairs))
+    for (int i = 0; i < Dim; ++i) {
+      double resultant = 0.0, sum = 0.0;
+      bool free = true;
+      for (const int a : part) {
+        const double root = op.root_inverse_mass()[a * Dim + i];
+        if (root == 0.0) {
+          free = false;
+          break;
+        }
+        const double force = weighted_load[a * Dim + i] / root;
+        resultant += force;
+        sum += std::abs(force);
+      }
+      if (free && std::abs(resultant) > in_balance * sum)
+        throw InvalidInput(
+            fmt::format("load: it drives particle {} and those connected to it along axis {}, where nothing holds them",
+                        part.front(), i));
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+Eigen::VectorXd static_displacement(const Problem<Dim>& problem, const Body<Dim>& body) {
+  if (problem.scheme.momentum_density == MomentumDensity::equation_of_state)
+    throw InvalidInput("density_in_momentum: equation-of-state has no linear equilibrium, static ones take frozen");
+  const BodyOperator<Dim> op(problem, body);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(op.components());  // M^½ load
+  if (!body.load.empty())
+    for (const int i : op.unknowns()) load[i] = body.load[i / Dim][i % Dim] / op.root_inverse_mass()[i];
+  require_balance(body, op, load);
+
+  // From zero and without a preconditioner the iterates stay orthogonal, in M, to all that meets no resistance.
+  using Matrix = Eigen::SparseMatrix<double>;
+  Eigen::ConjugateGradient<Matrix, Eigen::Lower, Eigen::IdentityPreconditioner> solver;
+  const Matrix matrix = op.matrix();
+  solver.setTolerance(residual_tolerance);
+  solver.setMaxIterations(most_iterations);
+  solver.compute(matrix);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(op.components());
+  x(op.unknowns()) = solver.solve(load(op.unknowns()).eval());
+  if (solver.info() != Eigen::Success)
+    throw InvalidInput(
+        fmt::format("load: no equilibrium in {} iterations, relative residual {:.1e}; it drives a zero-energy mode, or "
+                    "one that meets next to no resistance",
+                    solver.iterations(), solver.error()));
+  return op.displacement(x);
+}
+
+template Eigen::VectorXd static_displacement(const Problem<1>&, const Body<1>&);
+template Eigen::VectorXd static_displacement(const Problem<2>&, const Body<2>&);
+template Eigen::VectorXd static_displacement(const Problem<3>&, const Body<3>&);
+
+}  // namespace sphstab::analysis

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "analysis/body_operator.hpp"
+#include "analysis/rigid_motions.hpp"
+#include "analysis/spectrum.hpp"
+#include "tests/analysis/bodies.hpp"
+
+using namespace sphstab;
+using namespace sphstab::analysis;
+
+namespace {
+
+/// ω² relative to the largest: the residual that modes are converged to, squared over the gaps, and dense rounding.
+constexpr double eigenvalue_tolerance = 1e-12;
+/// Relative residual of the equilibrium; the displacement has it times the condition, some thousands.
+constexpr double static_tolerance = 1e-8;
+
+struct Counts {
+  int vibrations = 0, rigid = 0, zero_energy = 0;
+};
+
+Counts count(const std::vector<BodyMode>& modes) {
+  Counts counts;
+  for (const auto& mode : modes) {
+    counts.vibrations += mode.kind == BodyModeKind::vibration;
+    counts.rigid += mode.kind == BodyModeKind::rigid;
+    counts.zero_energy += mode.kind == BodyModeKind::zero_energy;
+  }
+  return counts;
+}
+
+template <int Dim>
+void check_against_dense(const Problem<Dim>& problem, const Body<Dim>& body, int modes) {
+  const BodyOperator<Dim> op(problem, body);
+  const Eigen::VectorXd expected = bodies::dense_eigenvalues(Eigen::MatrixXd(op.matrix()));
+  const auto found = lowest_modes(problem, body, modes);
+  REQUIRE(static_cast<int>(found.size()) == modes);
+  for (int i = 0; i < modes; ++i)
+    CHECK(std::abs(found[i].omega * found[i].omega - expected[i]) < eigenvalue_tolerance * expected.maxCoeff());
+}
+
+/// Waves of the free chain whose wave vector is beyond half of the zone come back to low frequencies: what bonds feel
+/// of them is 0.9 or more of all there is.
+double alternation(const Eigen::VectorXd& s) {
+  return (s.tail(s.size() - 1) - s.head(s.size() - 1)).squaredNorm() / (4.0 * s.squaredNorm());
+}
+
+}  // namespace
+
+TEST_CASE("the lowest modes are those of the dense matrix, by dense and by sparse solution", "[fast]") {
+  const auto problem = bodies::problem<2>(KernelFamily::cubic_spline, 1.3, KernelNormalisation::sum);
+  check_against_dense<2>(problem, bodies::mixed_block<2>(problem, {10, 8}, 0.2), 12);
+  check_against_dense<2>(problem, bodies::block<2>(problem, {24, 20}, 0.2), 20);
+  check_against_dense<2>(problem, bodies::mixed_block<2>(problem, {24, 20}, 0.2), 20);
+  const auto in_space = bodies::problem<3>(KernelFamily::cubic_spline, 1.3, KernelNormalisation::none);
+  check_against_dense<3>(in_space, bodies::block<3>(in_space, {7, 6, 6}, 0.2), 15);
+}
+
+TEST_CASE("a free plate moves rigidly in three ways, a block in six, a clamped one in none", "[fast]") {
+  const auto plane = bodies::problem<2>(KernelFamily::cubic_spline, 1.3, KernelNormalisation::sum);
+  auto plate = bodies::block<2>(plane, {24, 20}, 0.1);
+  CHECK(rigid_motions(plate).cols() == 3);
+  const auto free = count(lowest_modes(plane, plate, 8));
+  CHECK(free.rigid == 3);
+  CHECK(free.vibrations == 5);
+
+  plate.clamped.assign(plate.position.size(), Directions<2>::Constant(false));
+  plate.clamped[0][0] = true;  // neither slides along x nor turns about a point on a line through this one
+  CHECK(rigid_motions(plate).cols() == 2);
+  plate.clamped[0][1] = true;
+  CHECK(rigid_motions(plate).cols() == 1);
+  for (int a = 0; a < 48; ++a) plate.clamped[a].setConstant(true);
+  CHECK(rigid_motions(plate).cols() == 0);
+  CHECK(count(lowest_modes(plane, plate, 8)).vibrations == 8);
+
+  const auto space = bodies::problem<3>(KernelFamily::cubic_spline, 1.3, KernelNormalisation::sum);
+  const auto block = bodies::block<3>(space, {8, 6, 6}, 0.1);
+  CHECK(rigid_motions(block).cols() == 6);
+  const auto modes = count(lowest_modes(space, block, 9));
+  CHECK(modes.rigid == 6);
+  CHECK(modes.vibrations == 3);
+}
+
+TEST_CASE("parts that do not touch move rigidly each for itself", "[fast]") {
+  const auto problem = bodies::problem<2>(KernelFamily::cubic_spline, 1.3, KernelNormalisation::sum);
+  auto body = bodies::block<2>(problem, {20, 20}, 0.1);
+  for (auto& x : body.position)
+    if (x[0] > 9.5) x[0] += 10.0;
+  body.pairs = find_pairs(body.position, problem.kernel.support());
+  CHECK(connected_parts(body.pairs).size() == 2);
+  CHECK(count(lowest_modes(problem, body, 8)).rigid == 6);
+}
+
+TEST_CASE("the waves of a chain that alternate come back to low frequencies as zero-energy modes", "[fast]") {
+  const auto problem = bodies::problem<1>(KernelFamily::cubic_spline, 1.3, KernelNormalisation::none);
+  for (const int particles : {100, 700}) {  // dense and sparse
+    const auto modes = lowest_modes(problem, bodies::block<1>(problem, LatticeIndex<1>(particles)), 21);
+    CHECK(count(modes).rigid == 1);
+    CHECK(modes.front().kind == BodyModeKind::rigid);
+    CHECK(count(modes).zero_energy > 5);
+    CHECK(count(modes).vibrations > 5);
+    for (const auto& mode : modes)
+      CHECK((mode.kind == BodyModeKind::zero_energy) == (alternation(mode.displacement) > 0.5));
+  }
+}
+
+TEST_CASE("a chain of nearest neighbours has the zero-energy modes of its sums, counted by hand", "[fast]") {
+  // Two neighbours, ε_a ∝ s_{a+1} − s_{a−1} inside and s_{a+1} − s_a at the ends. All strains 0: s is 2-periodic inside,
+  // and the ends make both constants equal: the translation alone. With one particle removed from either rule it stays so.
+  const auto chain = bodies::problem<1>(KernelFamily::cubic_spline, 0.65, KernelNormalisation::none);
+  const auto modes = lowest_modes(chain, bodies::block<1>(chain, LatticeIndex<1>(30)), 2);
+  CHECK(modes[0].kind == BodyModeKind::rigid);
+  CHECK(modes[0].omega < 1e-6);
+  CHECK(modes[1].omega > 1e-3);
+
+  // Periodic patches of four neighbours and even sides: k = (π,0), (0,π), (π,π) with two directions each, beside two
+  // translations.
+  const auto plane = bodies::problem<2>(KernelFamily::cubic_spline, 0.65, KernelNormalisation::none);
+  for (const LatticeIndex<2>& cells : {LatticeIndex<2>(6, 6), LatticeIndex<2>(20, 18)}) {
+    const auto found = lowest_modes(plane, periodic_patch(plane, cells), 10);
+    CHECK(std::count_if(found.begin(), found.end(), [](const BodyMode& mode) { return mode.omega < 1e-6; }) == 8);
+    const auto counts = count({found.begin(), found.begin() + 8});
+    CHECK(counts.rigid == 2);
+    CHECK(counts.zero_energy == 6);
+  }
+}
+
+TEST_CASE("modes are orthogonal in the mass, and their displacements satisfy the printed equations", "[fast]") {
+  const auto problem = bodies::problem<2>(KernelFamily::cubic_spline, 1.3, KernelNormalisation::sum);
+  const auto body = bodies::mixed_block<2>(problem, {6, 5}, 0.2);
+  const BodyOperator<2> op(problem, body);
+  const Eigen::MatrixXd K = bodies::printed_operator(problem, body);
+  for (const auto& mode : lowest_modes(problem, body, 5)) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(60);
+    for (const int i : op.unknowns()) x[i] = mode.displacement[i] / op.root_inverse_mass()[i];
+    CHECK((K * x - mode.omega * mode.omega * x).norm() < eigenvalue_tolerance * x.norm());
+    CHECK(mode.displacement.head<2>().isZero(0.0));
+  }
+}
+
+TEST_CASE("a clamped bar hangs as the printed equations want it", "[fast]") {
+  for (const auto normalisation : {KernelNormalisation::none, KernelNormalisation::sum}) {
+    const auto problem = bodies::problem<2>(KernelFamily::cubic_spline, 1.3, normalisation);
+    auto body = bodies::mixed_block<2>(problem, {6, 5}, 0.2);
+    for (int a = 0; a < 6; ++a) body.clamped[a].setConstant(true);
+    body.load.assign(30, Vector<2>(0.3, -1.0));
+    const Eigen::VectorXd s = static_displacement(problem, body);
+    const BodyOperator<2> op(problem, body);
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(60), load = x;
+    for (const int i : op.unknowns()) {
+      x[i] = s[i] / op.root_inverse_mass()[i];
+      load[i] = body.load[i / 2][i % 2] / op.root_inverse_mass()[i];
+    }
+    CHECK((bodies::printed_operator(problem, body) * x - load).norm() < static_tolerance * load.norm());
+    CHECK(s.head<12>().isZero(0.0));
+  }
+}
+
+TEST_CASE("a free body in balance is displaced without moving, and one that is driven is refused", "[fast]") {
+  const auto problem = bodies::problem<2>(KernelFamily::cubic_spline, 1.3, KernelNormalisation::sum);
+  auto body = bodies::block<2>(problem, {12, 12}, 0.2);
+  const BodyOperator<2> op(problem, body);
+  const Eigen::VectorXd mass = op.root_inverse_mass().cwiseAbs2().cwiseInverse();
+  body.load.assign(144, Vector<2>::Zero());
+  body.load[5] = Vector<2>(0.0, 1.0 / mass[10]);
+  CHECK_THROWS_AS(static_displacement(problem, body), InvalidInput);
+  body.load[137] = Vector<2>(0.0, -1.0 / mass[274]);
+  const Eigen::VectorXd s = static_displacement(problem, body);
+  const Eigen::VectorXd momentum = mass.cwiseProduct(s);
+  for (int i = 0; i < 2; ++i) {
+    double sum = 0.0;
+    for (int a = 0; a < 144; ++a) sum += momentum[2 * a + i];
+    CHECK(std::abs(sum) < static_tolerance * momentum.cwiseAbs().sum());
+  }
+  CHECK(s[11] > s[275]);
+
+  // A zero-energy mode that is driven has no equilibrium either.
+  const auto four = bodies::problem<2>(KernelFamily::cubic_spline, 0.65, KernelNormalisation::none);
+  auto patch = periodic_patch(four, {6, 6});
+  for (int a = 0; a < 36; ++a) patch.load.push_back(Vector<2>(a % 2 == 0 ? 1.0 : -1.0, 0.0));
+  CHECK_THROWS_AS(static_displacement(four, patch), InvalidInput);
+
+  auto equation_of_state = problem;
+  equation_of_state.scheme.momentum_density = MomentumDensity::equation_of_state;
+  CHECK_THROWS_AS(static_displacement(equation_of_state, body), InvalidInput);
+  CHECK_THROWS_AS(lowest_modes(problem, body, 0), InvalidInput);
+}
