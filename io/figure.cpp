@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
@@ -122,6 +123,103 @@ std::string script_of(const LineFigure& figure) {
          axes(figure) + marks(figure) + curves(figure);
 }
 
+/// Pixels: the side of a panel whose particles fill a square, and what its axes, title and colour bar take.
+constexpr int side_of_panel = 300, width_beside_panel = 230, height_beside_panel = 110, height_of_title = 40;
+/// Of the longer side of the particles of a panel over the shorter, as it is drawn; beyond it space stays empty.
+constexpr double longest_panel = 4.0;
+
+/// The smallest rectangle that holds the circles of all particles.
+struct Extent {
+  double x_low = std::numeric_limits<double>::infinity(), x_high = -x_low, y_low = x_low, y_high = -x_low;
+
+  void add(const std::vector<std::pair<double, double>>& centres, double radius) {
+    for (const auto& [x, y] : centres) {
+      if (!std::isfinite(x) || !std::isfinite(y)) continue;
+      x_low = std::min(x_low, x - radius), x_high = std::max(x_high, x + radius);
+      y_low = std::min(y_low, y - radius), y_high = std::max(y_high, y + radius);
+    }
+  }
+  double height_over_width() const { return (y_high - y_low) / (x_high - x_low); }
+};
+
+Extent extent_of(const ParticlePanel& panel, double radius) {
+  Extent extent;
+  extent.add(panel.positions, 1.5 * radius);
+  extent.add(panel.circles, 1.5 * radius);
+  return extent;
+}
+
+/// 1, 2 or 5 times a power of ten: the smallest that makes at most four steps of the length.
+double tick_step(double length) {
+  const double power = std::pow(10.0, std::floor(std::log10(length / 4.0)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (step * power >= length / 4.0) return step * power;
+  return 10.0 * power;
+}
+
+/// The data of a panel: x y radius value arrow, and its circles.
+std::string data_of(const ParticlePanel& panel, double radius, std::size_t i) {
+  std::string data = fmt::format("$particles{} << end_of_particles\n", i);
+  for (std::size_t a = 0; a < panel.positions.size(); ++a) {
+    const auto [x, y] = panel.positions[a];
+    const auto [dx, dy] = panel.arrows.empty() ? std::pair(0.0, 0.0) : panel.arrows[a];
+    data += fmt::format("{} {} {} {} {} {}\n", number(x), number(y), radius,
+                        number(panel.values.empty() ? 0.0 : panel.values[a]), number(dx), number(dy));
+  }
+  data += fmt::format("end_of_particles\n$circles{} << end_of_circles\n", i);
+  for (const auto& [x, y] : panel.circles) data += fmt::format("{} {} {}\n", number(x), number(y), radius);
+  return data + "end_of_circles\n";
+}
+
+std::string plot_of(const ParticleFigure& figure, std::size_t i) {
+  const ParticlePanel& panel = figure.panels[i];
+  const Extent extent = extent_of(panel, figure.radius);
+  std::string script = fmt::format(
+      "set title {} noenhanced\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n{} colorbox\n"
+      "plot $particles{} using 1:2:3{} with circles fillstyle solid noborder linecolor {} notitle",
+      quoted(panel.title), number(extent.x_low), number(extent.x_high), number(extent.y_low), number(extent.y_high),
+      tick_step(extent.x_high - extent.x_low), tick_step(extent.y_high - extent.y_low),
+      panel.values.empty() ? "unset" : "set", i, panel.values.empty() ? "" : ":4",
+      panel.values.empty() ? "rgb '#D55E00'" : "palette");
+  if (!panel.circles.empty())
+    script +=
+        fmt::format(", $circles{} using 1:2:3 with circles fillstyle empty border linecolor rgb '#000000' notitle", i);
+  if (!panel.arrows.empty())
+    script += fmt::format(", $particles{} using 1:2:5:6 with vectors head filled linecolor rgb '#000000' notitle", i);
+  return script + "\n";
+}
+
+std::string script_of(const ParticleFigure& figure) {
+  const int panels = static_cast<int>(figure.panels.size()), columns = std::min(panels, figure.columns),
+            rows = (panels + columns - 1) / columns;
+  double height_over_width = 1.0 / longest_panel;
+  std::string data, plots;
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    height_over_width = std::max(height_over_width, extent_of(figure.panels[i], figure.radius).height_over_width());
+    data += data_of(figure.panels[i], figure.radius, i);
+    plots += plot_of(figure, i);
+  }
+  height_over_width = std::min(height_over_width, longest_panel);
+  const int width = width_beside_panel + static_cast<int>(side_of_panel / std::min(1.0, std::sqrt(height_over_width)));
+  const int height = height_beside_panel + static_cast<int>((width - width_beside_panel) * height_over_width);
+  std::string script = fmt::format(
+      "set encoding utf8\n"
+      "set terminal svg size {},{} dynamic font 'sans-serif,13' background rgb '#FFFFFF'\n"
+      "set border linecolor rgb '#404040'\nset tics nomirror out scale 0.6\nset format '%g'\n"
+      "set size ratio -1\nset lmargin 11\nset rmargin 15\nset bmargin 4\nset tmargin 2\n"
+      "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset cblabel {} noenhanced\n"
+      "set palette defined (0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725')\n",
+      columns * width, rows * height + (figure.title.empty() ? 0 : height_of_title), quoted(figure.x_label),
+      quoted(figure.y_label), quoted(figure.value_label));
+  if (figure.value_range)
+    script +=
+        fmt::format("set cbrange [{}:{}]\n", number(figure.value_range->first), number(figure.value_range->second));
+  return script + data +
+         fmt::format("set multiplot layout {},{}{}\n", rows, columns,
+                     figure.title.empty() ? "" : fmt::format(" title {} noenhanced", quoted(figure.title))) +
+         plots + "unset multiplot\n";
+}
+
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 /// A file without a name that goes when it is closed.
@@ -159,14 +257,19 @@ int run_gnuplot(const File& in, const File& out, const File& messages) {
   return status;
 }
 
-}  // namespace
-
-std::string render_svg(const LineFigure& figure) {
+/// What gnuplot draws.
+std::string drawn(const std::string& script) {
   const File in = scratch_file(), out = scratch_file(), messages = scratch_file();
-  std::fputs(script_of(figure).c_str(), in.get());
+  std::fputs(script.c_str(), in.get());
   std::rewind(in.get());
   if (run_gnuplot(in, out, messages) != 0) throw std::runtime_error("gnuplot: " + contents(messages));
   return contents(out);
 }
+
+}  // namespace
+
+std::string render_svg(const LineFigure& figure) { return drawn(script_of(figure)); }
+
+std::string render_svg(const ParticleFigure& figure) { return drawn(script_of(figure)); }
 
 }  // namespace sphstab::io

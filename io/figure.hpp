@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,5 +49,29 @@ struct LineFigure {
 /// read as markup. At least one point must be finite and, on a logarithmic axis, positive.
 /// Throws InvalidInput if gnuplot is not installed.
 std::string render_svg(const LineFigure& figure);
+
+/// One picture of particles in a plane, all lists (x, y). Axes have equal units and reach as far as the particles.
+struct ParticlePanel {
+  std::string title;
+  std::vector<std::pair<double, double>> positions;
+  std::vector<double> values = {};                      ///< colour of each particle; empty: all the same
+  std::vector<std::pair<double, double>> circles = {};  ///< unfilled, such as where a theory has the particles
+  std::vector<std::pair<double, double>> arrows = {};   ///< from each particle, in units of x; empty: none
+};
+
+/// Panels beside and below each other.
+struct ParticleFigure {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  std::string value_label;  ///< beside the colour bars, which stand where there are values
+  double radius;            ///< of the circle of a particle, in units of x
+  std::vector<ParticlePanel> panels;
+  int columns = 2;
+  std::optional<std::pair<double, double>> value_range = {};  ///< of the colours; none: each panel has its own
+};
+
+/// The same for particles, each a circle, so for some ten thousand of them. Particles that are not finite are left out.
+std::string render_svg(const ParticleFigure& figure);
 
 }  // namespace sphstab::io

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <numeric>
 #include <system_error>
 #include <utility>
 
@@ -14,9 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const ParticleArray positions{"position", "/reference/position", 3};
-const std::vector<ParticleArray> constant{
-    {"volume", "/reference/volume"}, {"density", "/reference/density"}, {"material", "/reference/material", 1, true}};
+const ReferenceArrays reference{.number = {"number", "/reference/number", 1, true},
+                                .position = {"position", "/reference/position", 3},
+                                .others = {{"volume", "/reference/volume"},
+                                           {"density", "/reference/density"},
+                                           {"material", "/reference/material", 1, true}}};
 
 fs::path companion_of(fs::path path) {
   const fs::path given = path;
@@ -65,10 +68,13 @@ ParticleFile::ParticleFile(const fs::path& path, const Body<Dim>& body, Existing
       file_(naming(path, [&] { return Hdf5File(pending_.assembly()); })),
       particles_(body.position.size()) {
   check_output(companion_, existing);
+  std::vector<int> number(particles_);
+  std::iota(number.begin(), number.end(), 0);
   std::vector<double> density;
   for (int a = 0; a < body.size(); ++a) density.push_back(body.material_of(a).density());
   naming(path_, [&] {
-    file_.write(positions.data_set, vector_field<Dim>(positions.name, body.position).values, positions.columns);
+    file_.write("/reference/number", number);
+    file_.write("/reference/position", vector_field<Dim>("position", body.position).values, 3);
     file_.write("/reference/volume", body.volume);
     file_.write("/reference/density", density);
     file_.write("/reference/material", body.material);
@@ -92,8 +98,7 @@ void ParticleFile::add_state(double time, const std::vector<ParticleField>& fiel
 void ParticleFile::finish() {
   naming(path_, [&] { file_.close(); });
   pending_.commit();
-  write_file(companion_, xdmf_of_particles(path_.filename().string(), particles_, positions, constant, states_),
-             existing_);
+  write_file(companion_, xdmf_of_particles(path_.filename().string(), particles_, reference, states_), existing_);
 }
 
 template ParticleField vector_field(const std::string&, const std::vector<Vector<1>>&);

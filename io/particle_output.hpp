@@ -30,8 +30,8 @@ ParticleField tensor_field(const std::string& name, const std::vector<Tensor<Dim
 /// States of a body in HDF5, with an XDMF file beside it that ParaView opens: motions at times, or modes at their
 /// frequencies.
 ///
-/// /reference/position, volume, density and material (its index) of the body, and /states/<i>/time and one data set a
-/// field, i = 0, 1, …; one row a particle. Both files appear with finish(); without it nothing remains. Tested in
+/// /reference/number, position, volume, density and material (its index) of the body, and /states/<i>/time and one data
+/// set a field, i = 0, 1, …; one row a particle. Both files appear with finish(); without it nothing remains. Tested in
 /// tests/io/test_particle_output.cpp.
 class ParticleFile {
  public:

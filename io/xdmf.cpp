@@ -33,13 +33,16 @@ class Writer {
  public:
   Writer(const std::string& hdf5_name, std::size_t particles) : file_(escaped(hdf5_name)), particles_(particles) {}
 
-  std::string topology() const {
+  /// Every particle is a cell of one point.
+  std::string topology(const ParticleArray& number) const {
     return fmt::format(
-        "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n", particles_);
+        "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">\n"
+        "{}        </Topology>\n",
+        particles_, item(number));
   }
 
-  std::string geometry(const ParticleArray& positions) const {
-    return fmt::format("        <Geometry GeometryType=\"XYZ\">\n{}        </Geometry>\n", item(positions));
+  std::string geometry(const ParticleArray& position) const {
+    return fmt::format("        <Geometry GeometryType=\"XYZ\">\n{}        </Geometry>\n", item(position));
   }
 
   std::string attribute(const ParticleArray& array) const {
@@ -63,16 +66,16 @@ class Writer {
 
 }  // namespace
 
-std::string xdmf_of_particles(const std::string& hdf5_name, std::size_t particles, const ParticleArray& positions,
-                              const std::vector<ParticleArray>& constant, const std::vector<StoredState>& states) {
+std::string xdmf_of_particles(const std::string& hdf5_name, std::size_t particles, const ReferenceArrays& reference,
+                              const std::vector<StoredState>& states) {
   const Writer writer(hdf5_name, particles);
   std::string text =
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
       "    <Grid Name=\"states\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (const auto& state : states) {
     text += fmt::format("      <Grid Name=\"particles\">\n        <Time Value=\"{}\"/>\n", state.time);
-    text += writer.topology() + writer.geometry(positions);
-    for (const auto& array : constant) text += writer.attribute(array);
+    text += writer.topology(reference.number) + writer.geometry(reference.position);
+    for (const auto& array : reference.others) text += writer.attribute(array);
     for (const auto& array : state.arrays) text += writer.attribute(array);
     text += "      </Grid>\n";
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,15 @@ struct StoredState {
   std::vector<ParticleArray> arrays;
 };
 
-/// The XDMF text that tells ParaView how to read `particles` points and their arrays from the HDF5 file beside it:
-/// positions and `constant` arrays are the same in every state.
-std::string xdmf_of_particles(const std::string& hdf5_name, std::size_t particles, const ParticleArray& positions,
-                              const std::vector<ParticleArray>& constant, const std::vector<StoredState>& states);
+/// What no state changes.
+struct ReferenceArrays {
+  ParticleArray number;  ///< 0, 1, 2 …
+  ParticleArray position;
+  std::vector<ParticleArray> others;
+};
+
+/// The XDMF text that tells ParaView how to read `particles` points and their arrays from the HDF5 file beside it.
+std::string xdmf_of_particles(const std::string& hdf5_name, std::size_t particles, const ReferenceArrays& reference,
+                              const std::vector<StoredState>& states);
 
 }  // namespace sphstab::io

@@ -95,6 +95,7 @@ TEST_CASE("particles and their states are read back from HDF5", "[fast]") {
   const auto position = data_set(path, "/reference/position");
   CHECK(position.shape == std::vector<hsize_t>{3, 3});
   CHECK(position.values == std::vector<double>{0.125, 0.5, 0.0, 1.125, 1.5, 0.0, 2.125, 2.5, 0.0});
+  CHECK(data_set(path, "/reference/number").values == std::vector<double>{0.0, 1.0, 2.0});
   const auto volume = data_set(path, "/reference/volume");
   CHECK(volume.shape == std::vector<hsize_t>{3});
   CHECK(volume.values == std::vector<double>{1.0, 2.0, 3.0});
@@ -155,7 +156,7 @@ TEST_CASE("the XDMF file names every array of the HDF5 file in its shape", "[fas
                            {"displacement", "Vector"},
                            {"stress", "Tensor6"}});
   const auto items = matches(text, "<DataItem Dimensions=\"([\\d ]+)\".*?>([^:<]+):([^<]+)</DataItem>");
-  CHECK(items.size() == 2 + 9);  // positions twice
+  CHECK(items.size() == 4 + 9);  // numbers and positions twice
   for (const auto& item : items) {
     CHECK(item[1] == "a &amp; b.h5");
     std::string shape;
