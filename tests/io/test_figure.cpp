@@ -211,6 +211,7 @@ TEST_CASE("a tall row of particles fits onto the page", "[fast]") {
   const auto drawn = markers(render_svg(figure), "gpPt6");
   REQUIRE(drawn.size() == 12);
   for (const auto& marker : drawn) CHECK(marker.y > marker.radius);
+  CHECK(drawn[0].radius == Approx(0.2 / 5.5 * (drawn[0].y - drawn[11].y)).margin(0.05));
 }
 
 TEST_CASE("particles that are not finite are left out", "[fast]") {
