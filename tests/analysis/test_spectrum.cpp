@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/body_operator.hpp"
+#include "analysis/factorisation_bound.hpp"
 #include "analysis/lanczos.hpp"
 #include "tests/analysis/bodies.hpp"
 #include "tests/analysis/golden.hpp"
@@ -83,6 +84,21 @@ TEST_CASE("every bound holds the largest dense eigenvalue: chains, plates, block
   check_bodies<1>(LatticeIndex<1>(100));
   check_bodies<2>(LatticeIndex<2>(17, 13));
   check_bodies<3>(LatticeIndex<3>(6, 5, 4));
+}
+
+TEST_CASE("a factorisation does not believe an approximation that is too small", "[fast]") {
+  const auto problem = bodies::problem<2>(KernelFamily::cubic_spline, 1.3, KernelNormalisation::sum);
+  for (const double jitter : {0.0, 0.2}) {
+    const auto body = bodies::block<2>(problem, {17, 13}, jitter);
+    const BodyOperator<2> of_body(problem, body);
+    FactorisationBound factorisation(of_body);
+    const double largest = dense_largest(of_body.matrix());
+    for (const double part : {0.5, 0.99, 1.0 - 1e-6, 1.0 - 1e-9, 1.0}) {
+      const double bound = factorisation.above(part * largest, 1e-10);
+      CHECK(bound >= largest * (1.0 - dense_tolerance));
+      CHECK(bound <= largest * (part + 17.0 * (1.0 - part) + factorisation_width));
+    }
+  }
 }
 
 TEST_CASE("the random start may be any of fifty", "[fast]") {
