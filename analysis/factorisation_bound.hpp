@@ -21,8 +21,13 @@ class FactorisationBound {
   double multiplications() const { return cholesky_.multiplications(); }
   double memory() const { return cholesky_.memory(); }
 
+  struct Bound {
+    double value;
+    double margin;  ///< relative, above the approximation
+  };
+
   /// A bound `margin` (relative) above an approximation; where that is none, 16 times the margin above it, and so on.
-  double above(double approximation, double margin);
+  Bound above(double approximation, double margin);
 
  private:
   Eigen::SparseMatrix<double> matrix_;

@@ -27,9 +27,13 @@ constexpr double most_multiplications = 1e12;
 /// What is factorised at all.
 constexpr double most_memory = 4e9;
 
+/// Lanczos is asked again, for a hundredth of the tolerance each time, where it missed the largest eigenvalue.
+constexpr double finer = 1e-2, finest_tolerance = 1e-14;
+
 struct UpperBound {
   BoundKind kind;
   double value;
+  double margin = 0.0;  ///< of a factorisation, relative, above the approximation
 };
 
 template <int Dim>
@@ -41,11 +45,19 @@ class LimitSearch {
   BodyLimit limit() {
     const double rounding = operator_.rounding();
     prepare_factorisation();
-    const LanczosResult top = find_top();
-    const double largest = top.rayleigh_quotient;
-    if (!(largest > cancelled * rounding))
+    LanczosResult top = find_top(options_.tolerance);
+    if (!(top.rayleigh_quotient > cancelled * rounding))
       throw InvalidInput("smoothing_length: no particle of this body feels a force");
-    const UpperBound upper = find_bound(top);
+    UpperBound upper = find_bound(top);
+    // A factorisation that fails has seen an eigenvalue that Lanczos took for one with those below it.
+    for (double tolerance = options_.tolerance; upper.margin > options_.tolerance && tolerance > finest_tolerance;) {
+      tolerance *= finer;
+      const long applications = top.applications;
+      top = find_top(tolerance);
+      top.applications += applications;
+      upper = find_bound(top);
+    }
+    const double largest = top.rayleigh_quotient;
     const double lower = largest - rounding - operator_.components() * epsilon * largest;
     const double step = step_of(largest);
     return {.critical_time_step = step,
@@ -74,12 +86,12 @@ class LimitSearch {
       factorisation_.reset();
   }
 
-  LanczosResult find_top() {
+  LanczosResult find_top(double tolerance) {
     std::mt19937_64 random(options_.seed);
     std::normal_distribution<double> normal;  // of every free component: no direction is preferred
     Eigen::VectorXd start = Eigen::VectorXd::Zero(operator_.components());
     for (const int i : operator_.unknowns()) start[i] = normal(random);
-    LanczosOptions lanczos{.tolerance = options_.tolerance, .progress = options_.progress};
+    LanczosOptions lanczos{.tolerance = tolerance, .progress = options_.progress};
     if (!factorisation_ && options_.bound != BoundKind::norm_bound)
       lanczos.fewest =
           dimension_for_ratio(1.0 + options_.probabilistic_width, options_.failure_probability, unknowns());
@@ -88,8 +100,10 @@ class LimitSearch {
   }
 
   UpperBound find_bound(const LanczosResult& top) {
-    if (factorisation_)
-      return {BoundKind::factorisation, factorisation_->above(top.rayleigh_quotient, options_.tolerance)};
+    if (factorisation_) {
+      const auto [value, margin] = factorisation_->above(top.rayleigh_quotient, options_.tolerance);
+      return {BoundKind::factorisation, value, margin};
+    }
     const UpperBound proven{BoundKind::norm_bound, operator_.norm_bound()};
     if (options_.bound == BoundKind::norm_bound) return proven;
     const UpperBound probable{
