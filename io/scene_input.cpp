@@ -137,7 +137,8 @@ Shape<Dim> read_shape(const Document& document) {
 
 template <int Dim>
 Shape<Dim> shape_at(const Table& table, std::string_view key) {
-  return in_context(key, [&] { return read_shape<Dim>(table.at(key)); });
+  const Document& document = table.at(key);
+  return in_context(key, [&] { return read_shape<Dim>(document); });
 }
 
 /// The tables of a file in the order of the text.
