@@ -301,11 +301,7 @@ Scene<Dim> read_scene(const Case& input) {
                                     .problem = problem,
                                     .materials = {problem.material},
                                     .parts = {}};
-  if (const auto gravity = input.numbers("gravity")) {
-    if (gravity->size() != Dim)
-      throw InvalidInput(fmt::format("gravity: has {} components, but {} are needed", gravity->size(), Dim));
-    description.gravity = Eigen::Map<const Vector<Dim>>(gravity->data());
-  }
+  description.gravity = make_gravity<Dim>(input);
   const Document file = read_toml(path);
   return in_context(path, [&] {
     SceneReader<Dim>(description).read(file);
