@@ -43,6 +43,7 @@ class LimitSearch {
       : operator_(problem, body), options_(options), steps_(problem) {}
 
   BodyLimit limit() {
+    if (unknowns() == 0) throw InvalidInput("clamp: holds every particle, so that nothing moves");
     const double rounding = operator_.rounding();
     prepare_factorisation();
     LanczosResult top = find_top(options_.tolerance);

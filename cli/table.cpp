@@ -178,7 +178,8 @@ void TableOptions::add_to(CLI::App& app) {
       ->type_name("FILE");
   app.add_flag("--overwrite", overwrite, "replace a file that exists, and a journal of another sweep");
   base.add_to(app, {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::path,
-                    KeyGroup::time, KeyGroup::growth, KeyGroup::search, KeyGroup::distance, KeyGroup::lattice_sums});
+                    KeyGroup::time, KeyGroup::growth, KeyGroup::body, KeyGroup::spectrum, KeyGroup::run,
+                    KeyGroup::search, KeyGroup::distance, KeyGroup::lattice_sums});
 }
 
 int run_table(const TableOptions& options, const std::string& format) {

@@ -137,7 +137,8 @@ Shape<Dim> read_shape(const Document& document) {
 
 template <int Dim>
 Shape<Dim> shape_at(const Table& table, std::string_view key) {
-  return in_context(key, [&] { return read_shape<Dim>(table.at(key)); });
+  const Document& document = table.at(key);
+  return in_context(key, [&] { return read_shape<Dim>(document); });
 }
 
 /// The tables of a file in the order of the text.
@@ -300,11 +301,7 @@ Scene<Dim> read_scene(const Case& input) {
                                     .problem = problem,
                                     .materials = {problem.material},
                                     .parts = {}};
-  if (const auto gravity = input.numbers("gravity")) {
-    if (gravity->size() != Dim)
-      throw InvalidInput(fmt::format("gravity: has {} components, but {} are needed", gravity->size(), Dim));
-    description.gravity = Eigen::Map<const Vector<Dim>>(gravity->data());
-  }
+  description.gravity = make_gravity<Dim>(input);
   const Document file = read_toml(path);
   return in_context(path, [&] {
     SceneReader<Dim>(description).read(file);

@@ -133,6 +133,14 @@ Problem<Dim> make_problem(const Case& input) {
 }
 
 template <int Dim>
+Vector<Dim> make_gravity(const Case& input) {
+  const auto components = input.numbers("gravity");
+  if (!components) return Vector<Dim>::Zero();
+  require_length("gravity", components->size(), Dim);
+  return Eigen::Map<const Vector<Dim>>(components->data());
+}
+
+template <int Dim>
 Vector<Dim> make_wave_vector(const Case& input) {
   refuse_both(input, "wave_vector", "mode");
   if (const auto components = input.numbers("wave_vector")) {
@@ -160,14 +168,17 @@ template Kernel<2> make_kernel(const Case&);
 template Kernel<3> make_kernel(const Case&);
 template Lattice<1> make_lattice(const Case&);
 template Problem<1> make_problem(const Case&);
+template Vector<1> make_gravity(const Case&);
 template Vector<1> make_wave_vector(const Case&);
 template std::optional<LatticeIndex<1>> make_counts(const Case&, std::string_view);
 template Lattice<2> make_lattice(const Case&);
 template Problem<2> make_problem(const Case&);
+template Vector<2> make_gravity(const Case&);
 template Vector<2> make_wave_vector(const Case&);
 template std::optional<LatticeIndex<2>> make_counts(const Case&, std::string_view);
 template Lattice<3> make_lattice(const Case&);
 template Problem<3> make_problem(const Case&);
+template Vector<3> make_gravity(const Case&);
 template Vector<3> make_wave_vector(const Case&);
 template std::optional<LatticeIndex<3>> make_counts(const Case&, std::string_view);
 

@@ -58,6 +58,10 @@ Material make_material(const Case& input);
 template <int Dim>
 Problem<Dim> make_problem(const Case& input);
 
+/// The acceleration of the key gravity, zeros if it is absent. Throws InvalidInput for a wrong length.
+template <int Dim>
+Vector<Dim> make_gravity(const Case& input);
+
 /// k from wave_vector, or from mode and box: k = (mπ/(M Δp), lπ/(L Δp)), Zhang Eq. 13. Throws InvalidInput if neither
 /// or both are there or a length is wrong.
 template <int Dim>

@@ -73,7 +73,7 @@ const Key table[] = {
 
     {"plate", integers, KeyGroup::body, "", "particles of a free rectangular plate", {.low = 2.0}},
     {"scene", text, KeyGroup::body, "", "TOML file of a scene: its bodies, how they are held and loaded, and keys"},
-    {"gravity", numbers, KeyGroup::body, "", "gravitational acceleration of a scene; default zeros"},
+    {"gravity", numbers, KeyGroup::body, "", "gravitational acceleration; default zeros"},
 
     {"lowest_modes", integer, spectrum, "", "number of lowest modes and frequencies to compute", at_least_one},
     {"upper_bound", word, spectrum, "auto",

@@ -164,14 +164,21 @@ class RunFiles {
 
   static io::Table probe_table(const SceneRunResult<Dim>& result) {
     io::Table table{{"time"}, {}};
-    for (const auto& probe : result.probes)
+    for (const auto& probe : result.probes) {
       for (const char* quantity : {"displacement", "velocity"})
         for (int i = 0; i < Dim; ++i) table.header.push_back(fmt::format("{} {} {}", probe.name, quantity, "xyz"[i]));
+      for (int i = 0; i < Dim; ++i)
+        for (int j = i; j < Dim; ++j)
+          table.header.push_back(fmt::format("{} stress {}{}", probe.name, "xyz"[i], "xyz"[j]));
+    }
     for (std::size_t n = 0; n < result.sample_times.size(); ++n) {
       std::vector<std::string> row{fmt::format("{}", result.sample_times[n])};
-      for (const auto& probe : result.probes)
+      for (const auto& probe : result.probes) {
         for (const auto* quantity : {&probe.displacement, &probe.velocity})
           for (int i = 0; i < Dim; ++i) row.push_back(fmt::format("{}", (*quantity)[n][i]));
+        for (int i = 0; i < Dim; ++i)
+          for (int j = i; j < Dim; ++j) row.push_back(fmt::format("{}", probe.stress[n](i, j)));
+      }
       table.rows.push_back(std::move(row));
     }
     return table;
@@ -185,6 +192,8 @@ class RunFiles {
 
 template <int Dim>
 Json run_answer(const Case& input, const Request& request) {
+  if (input.has("time_step") && input.has("step_fraction"))
+    throw InvalidInput("step_fraction: cannot be given with time_step");
   const auto scene = make_scene<Dim>(input);
   const double duration = input.required_number("duration");
   const double critical = theory_limit<Dim>(scene.problem, scene.body).critical_time_step.value();

@@ -18,7 +18,10 @@ Scene<Dim> make_scene(const Case& input) {
   }
   const auto counts = make_size<Dim>(input, "plate");
   const auto problem = make_problem<Dim>(input);
-  return {.name = "free plate", .problem = problem, .body = free_plate(problem, *counts), .probes = {}};
+  Scene<Dim> scene{.name = "free plate", .problem = problem, .body = free_plate(problem, *counts), .probes = {}};
+  const Vector<Dim> gravity = make_gravity<Dim>(input);
+  if (!gravity.isZero(0.0)) scene.body.load.assign(scene.body.size(), gravity);
+  return scene;
 }
 
 Json body_name(const Case& input) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/scene_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +21,9 @@ constexpr long look_every = 50;
 constexpr double largest_number = 1e100;
 /// A duration that is a whole number of time steps but for rounding takes no step more.
 constexpr double rounding_of_steps = 1e-12;
+
+/// More steps than a run can take; far below the largest whole number.
+constexpr double most_steps = 1e15;
 
 template <int Dim>
 std::optional<int> first_not_finite(const Field<Dim>& field) {
@@ -65,7 +70,11 @@ class Run {
   SceneRunResult<Dim> result() {
     observe();
     while (step_ < steps_ && advance_to(next_event())) observe();
-    if (failure_) look();
+    if (failure_) {
+      look();
+      if (options_.snapshots > 0 && step_ != step_of_last_snapshot_) take_snapshot();
+      if (!probes_.empty() && time() != sample_times_.back()) sample();
+    }
     return {state_, sample_times_, probes_, summary(), failure_};
   }
 
@@ -119,7 +128,7 @@ class Run {
 
   void observe() {
     if (step_ % look_every == 0 || step_ == steps_) look();
-    if (step_ % sample_stride_ == 0 && !probes_.empty()) sample();
+    if ((step_ % sample_stride_ == 0 || step_ == steps_) && !probes_.empty()) sample();
     if (snapshots_left() && step_ == steps_of_snapshot(next_snapshot_)) take_snapshot();
   }
 
@@ -160,6 +169,7 @@ class Run {
 
   void take_snapshot() {
     ++next_snapshot_;
+    step_of_last_snapshot_ = step_;
     if (!options_.visit) return;
     Snapshot<Dim> snapshot{step_, time(), state_, {}, {}};
     for (int a = 0; a < simulation_.particles(); ++a) {
@@ -212,6 +222,7 @@ class Run {
 
   long step_ = 0;
   long next_snapshot_ = 0;
+  long step_of_last_snapshot_ = -1;
   std::vector<double> sample_times_;
   std::vector<ProbeHistory<Dim>> probes_;
   double largest_displacement_ = 0.0;
@@ -228,6 +239,9 @@ template <int Dim>
 SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options) {
   require_positive("time_step", options.time_step);
   require_positive("duration", options.duration);
+  if (!(options.duration / options.time_step <= most_steps))
+    throw InvalidInput(
+        fmt::format("duration: {} takes more than {} steps of {}", options.duration, most_steps, options.time_step));
   return Run<Dim>(scene, options).result();
 }
 

@@ -26,8 +26,9 @@ template <int Dim>
 struct SceneRunOptions {
   double time_step;
   double duration;     ///< the run ends with the first step at or after it
-  long snapshots = 0;  ///< equal intervals (no more than steps), with a snapshot at either end; 0: none
-  std::optional<long> probe_samples = std::nullopt;  ///< at most, of every second, third … step; absent: every step
+  long snapshots = 0;  ///< equal intervals (no more than steps), with a snapshot at either end, the last finite state
+                       ///< included; 0: none
+  std::optional<long> probe_samples = std::nullopt;  ///< at most, of every second, third … step, and the last; absent: every step
   std::function<void(long step, long steps)> progress = nullptr;
   std::function<void(const Snapshot<Dim>&)> visit = nullptr;
 };
@@ -78,7 +79,8 @@ struct SceneRunResult {
 
 /// Runs the scene from rest. A run with non-finite values stops at the exact step of the first one, whatever the
 /// interval at which it is looked at. With `verlet` every sample, snapshot and 50th step costs a right-hand side.
-/// Throws InvalidInput (`time_step`, `duration`) unless both are positive. Tested in tests/study/test_scene_run.cpp.
+/// Throws InvalidInput (`time_step`, `duration`) unless both are positive and the steps are at most 1e15. Tested in
+/// tests/study/test_scene_run.cpp.
 template <int Dim>
 SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options);
 

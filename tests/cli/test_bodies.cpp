@@ -129,8 +129,9 @@ TEST_CASE("a run writes its states, probes, pictures and summary, and falls as i
   CHECK(run["unstable"] == false);
   CHECK(run["probes"]["corner"]["displacement"][1].get<double>() == Approx(fall).epsilon(rounding));
   const auto probes = lines_of(io::read_file(folder.output() / "probes.csv"));
-  CHECK(cells_of(probes.front()) == std::vector<std::string>{"time", "corner displacement x", "corner displacement y",
-                                                             "corner velocity x", "corner velocity y"});
+  CHECK(cells_of(probes.front()) ==
+        std::vector<std::string>{"time", "corner displacement x", "corner displacement y", "corner velocity x",
+                                 "corner velocity y", "corner stress xx", "corner stress xy", "corner stress yy"});
   CHECK(std::stod(cells_of(probes.back())[2]) == Approx(fall).epsilon(rounding));
   CHECK(Json::parse(io::read_file(folder.output() / "summary.json")) == run);
   for (const char* file : {"states.h5", "states.xdmf", "snapshot_000.svg", "snapshot_002.svg"})
@@ -148,6 +149,65 @@ TEST_CASE("a run beyond the critical step ends with status 3 and says what grew"
   CHECK_THAT(outcome.out, Contains("UNSTABLE") && Contains("is no number at step"));
   CHECK(std::filesystem::exists(folder.output() / "states.h5"));
   CHECK(run(on_scene("run", folder, {"--step-fraction", "0.99", "--duration", "1000"})).status == 0);
+}
+
+TEST_CASE("a run that is cut short keeps the last state that has numbers", "[fast]") {
+  const SceneFolder folder(std::string(falling_plate) + "\n[[clamp]]\nregion.box = { from = [0, 0], to = [1, 4] }\n");
+  const Json answer = run(on_scene("run", folder,
+                                   {"--step-fraction", "1.5", "--duration", "1e5", "--snapshots", "1", "--output",
+                                    folder.output().string(), "--format", "json"}))
+                          .json();
+  CHECK(answer["failure"]["step"] == answer["steps"].get<long>() + 1);
+  CHECK_THAT(io::read_file(folder.output() / "states.xdmf"), Contains("states.h5:/states/1/displacement"));
+  // The last row of the probes is that state, stress and all.
+  const auto last = cells_of(lines_of(io::read_file(folder.output() / "probes.csv")).back());
+  const Json& corner = answer["probes"]["corner"];
+  REQUIRE(last.size() == 8);
+  const double state[] = {answer["time"],         corner["displacement"][0], corner["displacement"][1],
+                          corner["velocity"][0],  corner["velocity"][1],     corner["stress"][0][0],
+                          corner["stress"][0][1], corner["stress"][1][1]};
+  for (int i = 0; i < 8; ++i) CHECK(std::stod(last[i]) == state[i]);
+}
+
+TEST_CASE("a plate falls by the gravity of the case, as a scene does", "[fast]") {
+  const Arguments fall{"--plate",    "6,4", "--integrator", "verlet", "--time-step", "1",
+                       "--duration", "8",   "--format",     "json",   "--gravity"};
+  const auto on_plate = [&](const std::string& gravity) {
+    Arguments arguments = fall;
+    arguments.push_back(gravity);
+    return on_case("run", arguments);
+  };
+  const Json fallen = result_of(on_plate("0,-0.25")).json();
+  CHECK(fallen["largest_displacement"].get<double>() == Approx(0.5 * 0.25 * 8 * 8).epsilon(rounding));
+  CHECK(fallen["largest_velocity"].get<double>() == Approx(0.25 * 8).epsilon(rounding));
+  CHECK(complaint_about(on_plate("0,0,-1")) == "gravity: has 3 components, but 2 are needed");
+}
+
+TEST_CASE("a table sweeps over plates and scenes", "[fast]") {
+  const SceneFolder folder(falling_plate);
+  const Arguments sweep{
+      "--sweep", "kernel-normalisation=none,sum", "--columns", "critical_time_step", "--format", "json", "--answer"};
+  const auto check = [&](Arguments table, Arguments single, const std::string& command) {
+    table.insert(table.end(), sweep.begin(), sweep.end());
+    table.push_back(command);
+    const Json rows = result_of(table).json()["rows"];
+    REQUIRE(rows.size() == 2);
+    single.insert(single.end(), {"--format", "json"});
+    CHECK(rows[0]["critical_time_step"] == result_of(single).json()["critical_time_step"]);
+    CHECK(rows[1]["critical_time_step"] < rows[0]["critical_time_step"]);
+  };
+  for (const std::string command : {"spectrum", "bisect"}) {
+    check(on_case("table", {"--plate", "6,4"}), on_case(command, {"--plate", "6,4"}), command);
+    check(on_scene("table", folder), on_scene(command, folder), command);
+  }
+}
+
+TEST_CASE("a run takes one time step, and as many as can be counted", "[fast]") {
+  const SceneFolder folder(falling_plate);
+  CHECK(complaint_about(on_scene("run", folder, {"--duration", "1", "--time-step", "1", "--step-fraction", "0.5"})) ==
+        "step_fraction: cannot be given with time_step");
+  CHECK_THAT(complaint_about(on_scene("run", folder, {"--duration", "1e300"})),
+             StartsWith("duration: 1e+300 takes more than"));
 }
 
 TEST_CASE("what names no body, or two, is refused", "[fast]") {

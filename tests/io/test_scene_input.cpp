@@ -174,6 +174,7 @@ TEST_CASE("scenes have one and three dimensions too", "[fast]") {
 
 TEST_CASE("a mistake in a scene file is named by table, number, key and value", "[fast]") {
   CHECK(complaint_of("[[probe]]\nname = \"a\"\n") == "probe 1: position: missing");
+  CHECK(complaint_of("[[clamp]]\ndirections = [\"x\"]\n") == "clamp 1: region: missing");
   CHECK_THAT(complaint_of("[[clamps]]\n"), StartsWith("table: 'clamps' is not known; did you mean 'clamp'?"));
   CHECK_THAT(complaint("kernl = 1\n" + plate), StartsWith("key: 'kernl' is not known; did you mean 'kernel'?"));
   CHECK_THAT(complaint_of("[[clamp]]\nregon.box = { from = [0.0, 0.0], to = [1.0, 1.0] }\n"),

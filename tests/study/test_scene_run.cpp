@@ -11,6 +11,7 @@
 using namespace sphstab;
 using namespace sphstab::study;
 using namespace sphstab::study::test;
+using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -63,6 +64,12 @@ TEST_CASE("a run goes on to the first step at or after its duration", "[fast]") 
   CHECK(run_scene<2>(scene, {.time_step = 0.1, .duration = 0.01}).summary.steps == 1);
 }
 
+TEST_CASE("a duration of more steps than can be counted is refused", "[fast]") {
+  CHECK_THROWS_WITH(run_scene<2>(scene_of(beam()), {.time_step = 0.1, .duration = 1e300}),
+                    StartsWith("duration: 1e+300"));
+  CHECK_THROWS_WITH(run_scene<2>(scene_of(beam()), {.time_step = 1e-300, .duration = 1.0}), StartsWith("duration: 1 "));
+}
+
 TEST_CASE("snapshots are taken at equal intervals from the first state to the last", "[fast]") {
   const auto scene = scene_of(beam());
   const solver::Simulation<2> simulation(scene.problem, scene.body);
@@ -110,6 +117,12 @@ TEST_CASE("probes record every step, or every so many that there are no more sam
     CHECK(thinned.sample_times[n] == Approx(4.0 * static_cast<double>(n) * time_step));
     CHECK(thinned.probes[0].displacement[n] == every.probes[0].displacement[4 * n]);
   }
+
+  options.duration = 102 * time_step;
+  const auto ended = run_scene(scene, options);
+  REQUIRE(ended.sample_times.size() == 27);
+  CHECK(ended.sample_times.back() == ended.summary.time);
+  CHECK(ended.probes[0].displacement.back() == ended.state.displacement[39]);
 }
 
 TEST_CASE("a free plate falls as a point does, damped or not, without stress", "[fast]") {
@@ -182,8 +195,15 @@ TEST_CASE("an unstable run stops at the exact step of its first number that is n
   const auto scene = scene_of(beam());
   // Beyond the critical step, which is below 2; velocities pass a limit before displacements if Δt < 1.
   const double unstable = 2.4;
-  const auto run = run_scene<2>(scene, {.time_step = unstable, .duration = 1e5});
+  solver::State<2> shown(scene.body.size());
+  const auto run = run_scene<2>(
+      scene,
+      {.time_step = unstable, .duration = 1e5, .snapshots = 2, .probe_samples = 10, .visit = [&](const auto& snapshot) {
+         shown = snapshot.state;
+       }});
   REQUIRE(run.failure);
+  CHECK(shown.displacement == run.state.displacement);
+  CHECK(run.probes[0].displacement.back() == run.state.displacement[39]);
   CHECK(run.failure->field == "displacement");
   CHECK(run.failure->time == Approx(static_cast<double>(run.failure->step) * unstable));
   CHECK(run.summary.steps == run.failure->step - 1);
