@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <mutex>
 
 #include "analysis/spectrum.hpp"
 #include "io/document.hpp"
@@ -371,13 +370,7 @@ Measured measure_all(const Progress& progress) {
     work.emplace_back([&, i] { measured.bodies[i] = comparisons[i](); });
   for (auto& disorder : measured.disorders) work.emplace_back([&disorder] { measure(disorder); });
   for (auto& edges : measured.edges) work.emplace_back([&edges] { edges = measure_edges(edges.kernel, edges.ratio); });
-  std::size_t finished = 0;
-  std::mutex reporting;
-  parallel_for(static_cast<int>(work.size()), [&](int i) {
-    work[i]();
-    const std::lock_guard lock(reporting);
-    if (progress) progress(static_cast<double>(++finished) / static_cast<double>(work.size()));
-  });
+  run_all(work, progress);
   return measured;
 }
 

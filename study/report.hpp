@@ -44,4 +44,8 @@ Report hard_cases_report(const Progress& progress);
 /// clamps do to the step of the infinite lattice.
 Report body_report(const Progress& progress);
 
+/// Natural frequencies of beams against Timoshenko's theory with observed order, and those of Table 2 of Zhang et al.
+/// against finite elements.
+Report natural_frequency_report(const Progress& progress);
+
 }  // namespace sphstab::study
