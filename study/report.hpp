@@ -40,4 +40,12 @@ Report stability_tables_report(const Progress& progress);
 /// Cases that are easy to get wrong (study/hard_cases.hpp): expected value, theory and run of each.
 Report hard_cases_report(const Progress& progress);
 
+/// The critical step of whole bodies by their spectrum and by running them; what disorder, edges, normalisation and
+/// clamps do to the step of the infinite lattice.
+Report body_report(const Progress& progress);
+
+/// Natural frequencies of beams against Timoshenko's theory with observed order, and those of Table 2 of Zhang et al.
+/// against finite elements.
+Report natural_frequency_report(const Progress& progress);
+
 }  // namespace sphstab::study
