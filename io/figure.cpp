@@ -123,31 +123,60 @@ std::string script_of(const LineFigure& figure) {
          axes(figure) + marks(figure) + curves(figure);
 }
 
-/// Pixels: the side of a panel whose particles fill a square, and what its axes, title and colour bar take.
-constexpr int side_of_panel = 300, width_beside_panel = 230, height_beside_panel = 110, height_of_title = 40;
-/// Of the longer side of the particles of a panel over the shorter, as it is drawn; beyond it space stays empty.
-constexpr double longest_panel = 4.0;
+/// Pixels: the axes of a panel stand in an area of this width, with this space around it and around the whole.
+constexpr double width_of_area = 340, left_of_area = 100, right_of_area = 130, below_area = 70, above_area = 40,
+                 height_of_title = 30;
+/// The height of the area is at most this times its width.
+constexpr double tallest_area = 1.5;
+constexpr int font_size = 13;
+/// Pixels: gnuplot makes points of size 1 of this radius.
+constexpr double radius_of_point = 3.0 / 8.0 * font_size;
+
+using Points = std::vector<std::pair<double, double>>;
 
 /// The smallest rectangle that holds the circles of all particles.
 struct Extent {
   double x_low = std::numeric_limits<double>::infinity(), x_high = -x_low, y_low = x_low, y_high = -x_low;
 
-  void add(const std::vector<std::pair<double, double>>& centres, double radius) {
+  void add(const Points& centres, double radius) {
     for (const auto& [x, y] : centres) {
       if (!std::isfinite(x) || !std::isfinite(y)) continue;
       x_low = std::min(x_low, x - radius), x_high = std::max(x_high, x + radius);
       y_low = std::min(y_low, y - radius), y_high = std::max(y_high, y + radius);
     }
   }
-  double height_over_width() const { return (y_high - y_low) / (x_high - x_low); }
+  double width() const { return x_high - x_low; }
+  double height() const { return y_high - y_low; }
 };
 
 Extent extent_of(const ParticlePanel& panel, double radius) {
   Extent extent;
-  extent.add(panel.positions, 1.5 * radius);
-  extent.add(panel.circles, 1.5 * radius);
+  extent.add(panel.positions, 2.0 * radius);
+  extent.add(panel.circles, 2.0 * radius);
   return extent;
 }
+
+/// Where the panels stand on the page, in pixels.
+struct Layout {
+  int rows;
+  int columns;
+  double height_of_area;
+  double title;
+
+  explicit Layout(const ParticleFigure& figure)
+      : columns(std::min(static_cast<int>(figure.panels.size()), figure.columns)),
+        height_of_area(0.0),
+        title(figure.title.empty() ? 0.0 : height_of_title) {
+    rows = (static_cast<int>(figure.panels.size()) + columns - 1) / columns;
+    for (const auto& panel : figure.panels) {
+      const Extent extent = extent_of(panel, figure.radius);
+      height_of_area = std::max(height_of_area, width_of_area * extent.height() / extent.width());
+    }
+    height_of_area = std::min(height_of_area, tallest_area * width_of_area);
+  }
+  double width() const { return columns * (left_of_area + width_of_area + right_of_area); }
+  double height() const { return rows * (above_area + height_of_area + below_area) + title; }
+};
 
 /// 1, 2 or 5 times a power of ten: the smallest that makes at most four steps of the length.
 double tick_step(double length) {
@@ -157,67 +186,71 @@ double tick_step(double length) {
   return 10.0 * power;
 }
 
-/// The data of a panel: x y radius value arrow, and its circles.
-std::string data_of(const ParticlePanel& panel, double radius, std::size_t i) {
+/// The data of a panel: x y value arrow, and its circles.
+std::string data_of(const ParticlePanel& panel, int i) {
   std::string data = fmt::format("$particles{} << end_of_particles\n", i);
   for (std::size_t a = 0; a < panel.positions.size(); ++a) {
     const auto [x, y] = panel.positions[a];
     const auto [dx, dy] = panel.arrows.empty() ? std::pair(0.0, 0.0) : panel.arrows[a];
-    data += fmt::format("{} {} {} {} {} {}\n", number(x), number(y), radius,
-                        number(panel.values.empty() ? 0.0 : panel.values[a]), number(dx), number(dy));
+    const double value = panel.values.empty() ? 0.0 : panel.values[a];
+    if (std::isfinite(x) && std::isfinite(y) && std::isfinite(value))
+      data += fmt::format("{} {} {} {} {}\n", x, y, value, number(dx), number(dy));
   }
   data += fmt::format("end_of_particles\n$circles{} << end_of_circles\n", i);
-  for (const auto& [x, y] : panel.circles) data += fmt::format("{} {} {}\n", number(x), number(y), radius);
+  for (const auto& [x, y] : panel.circles) data += fmt::format("{} {}\n", number(x), number(y));
   return data + "end_of_circles\n";
 }
 
-std::string plot_of(const ParticleFigure& figure, std::size_t i) {
+/// The axes of a panel: as large as its area allows, a unit of x being as long as one of y. Returns the pixels a unit.
+double place(const Extent& extent, const Layout& layout, int i, std::string& script) {
+  const double scale = std::min(width_of_area / extent.width(), layout.height_of_area / extent.height());
+  const double left = (i % layout.columns) * (left_of_area + width_of_area + right_of_area) + left_of_area;
+  const double top = layout.height() - layout.title -
+                     (i / layout.columns) * (above_area + layout.height_of_area + below_area) - above_area;
+  script += fmt::format(
+      "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n"
+      "set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n",
+      left / layout.width(), (left + scale * extent.width()) / layout.width(), top / layout.height(),
+      (top - scale * extent.height()) / layout.height(), extent.x_low, extent.x_high, extent.y_low, extent.y_high,
+      tick_step(extent.width()), tick_step(extent.height()));
+  return scale;
+}
+
+std::string plot_of(const ParticleFigure& figure, const Layout& layout, int i) {
   const ParticlePanel& panel = figure.panels[i];
-  const Extent extent = extent_of(panel, figure.radius);
-  std::string script = fmt::format(
-      "set title {} noenhanced\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n{} colorbox\n"
-      "plot $particles{} using 1:2:3{} with circles fillstyle solid noborder linecolor {} notitle",
-      quoted(panel.title), number(extent.x_low), number(extent.x_high), number(extent.y_low), number(extent.y_high),
-      tick_step(extent.x_high - extent.x_low), tick_step(extent.y_high - extent.y_low),
-      panel.values.empty() ? "unset" : "set", i, panel.values.empty() ? "" : ":4",
-      panel.values.empty() ? "rgb '#D55E00'" : "palette");
+  std::string script = fmt::format("set title {} noenhanced\n{} colorbox\n", quoted(panel.title),
+                                   panel.values.empty() ? "unset" : "set");
+  const double scale = place(extent_of(panel, figure.radius), layout, i, script);
+  const double size = scale * figure.radius / radius_of_point;
+  script += fmt::format("plot $particles{} using 1:2{} with points pointtype 7 pointsize {} linecolor {} notitle", i,
+                        panel.values.empty() ? "" : ":3", size, panel.values.empty() ? "rgb '#D55E00'" : "palette");
   if (!panel.circles.empty())
-    script +=
-        fmt::format(", $circles{} using 1:2:3 with circles fillstyle empty border linecolor rgb '#000000' notitle", i);
+    script += fmt::format(
+        ", $circles{} using 1:2 with points pointtype 6 pointsize {} linewidth 1 linecolor rgb '#000000' notitle", i,
+        size);
   if (!panel.arrows.empty())
-    script += fmt::format(", $particles{} using 1:2:5:6 with vectors head filled linecolor rgb '#000000' notitle", i);
+    script += fmt::format(
+        ", $particles{} using 1:2:4:5 with vectors head filled linewidth 1.2 linecolor rgb '#000000' notitle", i);
   return script + "\n";
 }
 
 std::string script_of(const ParticleFigure& figure) {
-  const int panels = static_cast<int>(figure.panels.size()), columns = std::min(panels, figure.columns),
-            rows = (panels + columns - 1) / columns;
-  double height_over_width = 1.0 / longest_panel;
-  std::string data, plots;
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-    height_over_width = std::max(height_over_width, extent_of(figure.panels[i], figure.radius).height_over_width());
-    data += data_of(figure.panels[i], figure.radius, i);
-    plots += plot_of(figure, i);
-  }
-  height_over_width = std::min(height_over_width, longest_panel);
-  const int width = width_beside_panel + static_cast<int>(side_of_panel / std::min(1.0, std::sqrt(height_over_width)));
-  const int height = height_beside_panel + static_cast<int>((width - width_beside_panel) * height_over_width);
+  const Layout layout(figure);
   std::string script = fmt::format(
       "set encoding utf8\n"
-      "set terminal svg size {},{} dynamic font 'sans-serif,13' background rgb '#FFFFFF'\n"
+      "set terminal svg size {:.0f},{:.0f} dynamic font 'sans-serif,{}' background rgb '#FFFFFF'\n"
       "set border linecolor rgb '#404040'\nset tics nomirror out scale 0.6\nset format '%g'\n"
-      "set size ratio -1\nset lmargin 11\nset rmargin 15\nset bmargin 4\nset tmargin 2\n"
       "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset cblabel {} noenhanced\n"
       "set palette defined (0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725')\n",
-      columns * width, rows * height + (figure.title.empty() ? 0 : height_of_title), quoted(figure.x_label),
-      quoted(figure.y_label), quoted(figure.value_label));
+      layout.width(), layout.height(), font_size, quoted(figure.x_label), quoted(figure.y_label),
+      quoted(figure.value_label));
   if (figure.value_range)
-    script +=
-        fmt::format("set cbrange [{}:{}]\n", number(figure.value_range->first), number(figure.value_range->second));
-  return script + data +
-         fmt::format("set multiplot layout {},{}{}\n", rows, columns,
-                     figure.title.empty() ? "" : fmt::format(" title {} noenhanced", quoted(figure.title))) +
-         plots + "unset multiplot\n";
+    script += fmt::format("set cbrange [{}:{}]\n", figure.value_range->first, figure.value_range->second);
+  const int panels = static_cast<int>(figure.panels.size());
+  for (int i = 0; i < panels; ++i) script += data_of(figure.panels[i], i);
+  script += fmt::format("set multiplot title {} noenhanced\n", quoted(figure.title));
+  for (int i = 0; i < panels; ++i) script += plot_of(figure, layout, i);
+  return script + "unset multiplot\n";
 }
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;

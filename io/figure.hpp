@@ -71,7 +71,7 @@ struct ParticleFigure {
   std::optional<std::pair<double, double>> value_range = {};  ///< of the colours; none: each panel has its own
 };
 
-/// The same for particles, each a circle, so for some ten thousand of them. Particles that are not finite are left out.
+/// The same for particles, some hundred bytes each. Those that are not finite are left out. Every panel must have one.
 std::string render_svg(const ParticleFigure& figure);
 
 }  // namespace sphstab::io

@@ -50,6 +50,7 @@ void write_set(hid_t file, const std::string& name, hid_t file_type, hid_t memor
 }  // namespace
 
 Hdf5File::Hdf5File(const std::filesystem::path& path) {
+  H5dont_atexit();                              // at exit it would crash over a file that it could not write
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints nothing
   errno = 0;
   file_ = checked(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT));

@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <regex>
 #include <string>
+#include <vector>
 
 #include "io/figure.hpp"
 #include "model/errors.hpp"
@@ -32,6 +34,38 @@ LineFigure sample() {
   figure.vertical_lines = {{1.3, "default h"}};
   figure.shades = {{1.0, 1.2, "too few"}};
   return figure;
+}
+
+/// 4 × 3 particles a length of 0.5 apart; values 0 … 11.
+ParticleFigure particles() {
+  ParticlePanel panel{.title = "(a) plate", .positions = {}};
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 4; ++i) {
+      panel.positions.emplace_back(0.5 * i, 0.5 * j);
+      panel.values.push_back(4 * j + i);
+    }
+  return {.title = "Particles",
+          .x_label = "x (m)",
+          .y_label = "y (m)",
+          .value_label = "von Mises stress (Pa)",
+          .radius = 0.2,
+          .panels = {panel}};
+}
+
+/// A marker as it stands in an SVG, in pixels.
+struct Marker {
+  double x, y, radius;
+  std::string colour;
+};
+
+/// Filled circles are gnuplot's sixth marker, unfilled ones its fifth.
+std::vector<Marker> markers(const std::string& svg, const std::string& id) {
+  const std::regex pattern("'#" + id +
+                           "' transform='translate\\(([\\d.]+),([\\d.]+)\\) scale\\(([\\d.]+)\\)' color='(.*?)'");
+  std::vector<Marker> found;
+  for (std::sregex_iterator match(svg.begin(), svg.end(), pattern), end; match != end; ++match)
+    found.push_back({std::stod((*match)[1]), std::stod((*match)[2]), std::stod((*match)[3]), (*match)[4]});
+  return found;
 }
 
 std::size_t count(const std::string& text, const std::string& word) {
@@ -115,6 +149,70 @@ TEST_CASE("a figure without a point to draw is a fault that repeats what gnuplot
   LineFigure figure;
   figure.curves = {{"", {{1.0, std::numeric_limits<double>::quiet_NaN()}}}};
   CHECK_THROWS_WITH(render_svg(figure), StartsWith("gnuplot: ") && Contains("undefined"));
+}
+
+TEST_CASE("particles stand where they are, of their size, along axes of equal units", "[fast]") {
+  constexpr double pixel = 0.02;  // gnuplot writes hundredths
+  const std::string svg = render_svg(particles());
+  const auto drawn = markers(svg, "gpPt6");
+  REQUIRE(drawn.size() == 12);
+  const double spacing = drawn[1].x - drawn[0].x;
+  CHECK(spacing > 50.0);
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 4; ++i) {
+      CHECK(drawn[4 * j + i].x == Approx(drawn[0].x + i * spacing).margin(4 * pixel));
+      CHECK(drawn[4 * j + i].y == Approx(drawn[0].y - j * spacing).margin(4 * pixel));  // y points up
+      CHECK(drawn[4 * j + i].radius == Approx(0.2 / 0.5 * spacing).margin(2 * pixel));
+    }
+  for (const auto* label : {"Particles", "(a) plate", "x (m)", "y (m)", "von Mises stress (Pa)"})
+    CHECK_THAT(svg, Contains(">" + std::string(label) + "<"));
+  CHECK(render_svg(particles()) == svg);
+}
+
+TEST_CASE("the colour of a particle follows its value", "[fast]") {
+  const std::string lowest = "rgb( 68,   1,  84)", highest = "rgb(253, 231,  37)";  // the ends of the palette
+  ParticleFigure figure = particles();
+  auto drawn = markers(render_svg(figure), "gpPt6");
+  REQUIRE(drawn.size() == 12);
+  CHECK(drawn.front().colour == lowest);
+  CHECK(drawn.back().colour != lowest);
+  figure.value_range = {0.0, 11.0};
+  drawn = markers(render_svg(figure), "gpPt6");
+  CHECK(drawn.back().colour == highest);
+  figure.value_range = {-11.0, 0.0};
+  CHECK(markers(render_svg(figure), "gpPt6").front().colour == highest);
+  figure.panels[0].values.clear();
+  const std::string plain = render_svg(figure);
+  for (const auto& marker : markers(plain, "gpPt6")) CHECK(marker.colour == "rgb(213,  94,   0)");
+  CHECK_THAT(plain, !Contains("von Mises"));  // no colour bar
+}
+
+TEST_CASE("circles and arrows are drawn beside particles, in panels of their own", "[fast]") {
+  ParticleFigure figure = particles();
+  figure.panels.push_back(figure.panels[0]);
+  figure.panels.push_back(figure.panels[0]);
+  figure.panels[1].circles = {{0.25, 0.0}, {3.0, 1.0}};
+  const std::string svg = render_svg(figure);
+  const auto drawn = markers(svg, "gpPt6"), circles = markers(svg, "gpPt5");
+  REQUIRE(drawn.size() == 36);
+  REQUIRE(circles.size() == 2);
+  CHECK(circles[0].x == Approx((drawn[12].x + drawn[13].x) / 2).margin(0.05));
+  CHECK(circles[1].x > drawn[15].x);  // the axes reach as far as the circles
+  CHECK(drawn[12].x > drawn[3].x);    // second column
+  CHECK(drawn[24].y > drawn[0].y);    // second row, below
+  CHECK(drawn[24].x == drawn[0].x);
+  figure.panels[2].arrows.assign(12, {0.1, 0.1});
+  CHECK(count(render_svg(figure), "<path") > count(svg, "<path"));
+}
+
+TEST_CASE("particles that are not finite are left out", "[fast]") {
+  ParticleFigure figure = particles();
+  const auto whole = markers(render_svg(figure), "gpPt6");
+  figure.panels[0].positions[5].first = std::numeric_limits<double>::infinity();
+  figure.panels[0].values[6] = std::numeric_limits<double>::quiet_NaN();
+  const auto drawn = markers(render_svg(figure), "gpPt6");
+  REQUIRE(drawn.size() == 10);
+  CHECK(drawn.back().x == whole.back().x);
 }
 
 TEST_CASE("a missing gnuplot is named with the package that brings it", "[fast]") {

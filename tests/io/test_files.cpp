@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
-#include <csignal>
 #include <string>
 #include <vector>
 
 #include "io/files.hpp"
+#include "io/full_disk.hpp"
 #include "io/scratch_folder.hpp"
 #include "model/errors.hpp"
 
@@ -15,31 +14,6 @@ using namespace sphstab;
 using namespace sphstab::io;
 using Catch::Matchers::Contains;
 using Names = std::vector<std::string>;
-
-namespace {
-
-/// While it lives the system refuses to let a file grow beyond `bytes`, like a disk that is full.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
-
-}  // namespace
 
 TEST_CASE("a file is read back byte for byte", "[fast]") {
   const ScratchFolder folder;
@@ -233,4 +207,28 @@ TEST_CASE("a journal that cannot be written says so", "[fast]") {
   Journal journal(folder / "j", "work");
   const FullDisk full(1000);
   CHECK_THROWS_WITH(journal.append(std::string(2000, 'x')), Contains("j: File too large"));
+}
+
+TEST_CASE("a file that a library writes for itself appears with commit, in its place or in a folder", "[fast]") {
+  const ScratchFolder folder;
+  write_file(folder / "taken", "old");
+  CHECK_THROWS_WITH(PendingFile(folder / "taken"), (folder / "taken").string() + ": exists already");
+  {
+    PendingFile file(folder / "new");
+    write_file(file.assembly(), "text");
+    CHECK_FALSE(std::filesystem::exists(folder / "new"));
+  }
+  CHECK(folder.names() == Names{"taken"});
+  PendingFile file(folder / "new");
+  write_file(file.assembly(), "text");
+  file.commit();
+  CHECK(read_file(folder / "new") == "text");
+  CHECK(folder.names() == Names{"new", "taken"});
+
+  OutputFolder results(folder / "results");
+  write_file(results.assembly("states/run.h5"), "numbers");
+  CHECK_THROWS_WITH(results.write("states/run.h5", ""), Contains("run.h5: is written twice"));
+  CHECK_FALSE(std::filesystem::exists(folder / "results"));
+  results.commit();
+  CHECK(read_file(folder / "results/states/run.h5") == "numbers");
 }

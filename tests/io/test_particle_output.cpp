@@ -2,13 +2,12 @@
 #include "io/particle_output.hpp"
 
 #include <hdf5.h>
-#include <sys/resource.h>
 
 #include <catch2/catch.hpp>
-#include <csignal>
 #include <numeric>
 #include <regex>
 
+#include "io/full_disk.hpp"
 #include "io/scratch_folder.hpp"
 
 using namespace sphstab;
@@ -184,4 +183,18 @@ TEST_CASE("particle files appear whole, together, or not at all", "[fast]") {
   CHECK_THROWS_WITH(write_two_states(folder / "missing/run.h5"), Catch::EndsWith("missing: no such folder"));
   write_two_states(folder / "run.h5", Existing::replace);
   CHECK(read_file(folder / "run.h5") == bytes);  // the same contents, the same bytes
+}
+
+TEST_CASE("a full disk is named, and leaves nothing of a particle file behind", "[fast]") {
+  const ScratchFolder folder;
+  write_two_states(folder / "whole.h5");
+  const auto whole = std::filesystem::file_size(folder / "whole.h5");
+  for (const rlim_t bytes : {rlim_t{50}, whole / 2, whole - 1}) {
+    INFO(bytes);
+    const FullDisk full(bytes);
+    CHECK_THROWS_WITH(write_two_states(folder / "run.h5"), (folder / "run.h5").string() + ": File too large");
+  }
+  CHECK(folder.names() == Words{"whole.h5", "whole.xdmf"});
+  write_two_states(folder / "run.h5");
+  CHECK(data_set(folder / "run.h5", "/states/0/von_mises").values.size() == 3);
 }
