@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "study/zhang_statics.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "analysis/spectrum.hpp"
+#include "solver/simulation.hpp"
+#include "solver/stress.hpp"
+#include "study/relaxation.hpp"
+#include "study/rigid_motion.hpp"
+
+namespace sphstab::study::zhang {
+namespace {
+
+using solver::Field;
+
+/// Part of the critical step at which a body is relaxed (RelaxationOptions::time_step).
+constexpr double step_fraction = 0.85;
+
+RestState state_of(const Problem<2>& problem, const Body<2>& body, const Field<2>& displacement) {
+  const solver::Simulation<2> simulation(problem, body);
+  solver::State<2> state(body.size());
+  state.displacement = remove_rigid_motion(body, displacement);
+  RestState rest{state.displacement, {}, {}};
+  for (int a = 0; a < body.size(); ++a) {
+    rest.strain.push_back(simulation.strain(state, a));
+    rest.von_mises.push_back(simulation.von_mises_stress(state, a));
+  }
+  return rest;
+}
+
+}  // namespace
+
+RestState rest_by_theory(const Problem<2>& problem, const Body<2>& body) {
+  const Eigen::VectorXd all = analysis::static_displacement(problem, body);
+  Field<2> displacement;
+  for (int a = 0; a < body.size(); ++a) displacement.emplace_back(all.segment<2>(2 * a));
+  return state_of(problem, body, displacement);
+}
+
+RestState rest_by_running(const Problem<2>& problem, const Body<2>& body) {
+  const auto limit = analysis::body_limit(problem, body, {.bound = analysis::BoundKind::norm_bound});
+  const auto found =
+      relax(problem, body, {.time_step = step_fraction * limit.critical_time_step, .tolerance = running_tolerance});
+  return state_of(problem, body, found.displacement);
+}
+
+RestState rest_of(const Body<2>& body, const std::function<ElasticState(const Vector<2>&)>& elastic_state) {
+  RestState rest;
+  for (const auto& x : body.position) {
+    const ElasticState state = elastic_state(x);
+    Tensor<3> stress = Tensor<3>::Zero();
+    stress.topLeftCorner<2, 2>() = state.stress;
+    rest.displacement.push_back(state.displacement);
+    rest.strain.push_back(state.strain);
+    rest.von_mises.push_back(solver::von_mises_stress(stress));
+  }
+  rest.displacement = remove_rigid_motion(body, rest.displacement);
+  return rest;
+}
+
+RestErrors errors(const RestState& found, const RestState& expected, const std::vector<int>& particles) {
+  double square = 0.0, whole = 0.0, largest = 0.0, most = 0.0;
+  double stress_square = 0.0, stress_whole = 0.0, stress_largest = 0.0, stress_most = 0.0;
+  for (const int a : particles) {
+    const double error = (found.displacement[a] - expected.displacement[a]).norm();
+    const double stress_error = std::abs(found.von_mises[a] - expected.von_mises[a]);
+    square += error * error;
+    whole += expected.displacement[a].squaredNorm();
+    largest = std::max(largest, error);
+    most = std::max(most, expected.displacement[a].norm());
+    stress_square += stress_error * stress_error;
+    stress_whole += expected.von_mises[a] * expected.von_mises[a];
+    stress_largest = std::max(stress_largest, stress_error);
+    stress_most = std::max(stress_most, expected.von_mises[a]);
+  }
+  return {.displacement = std::sqrt(square / whole),
+          .largest_displacement = largest / most,
+          .von_mises = std::sqrt(stress_square / stress_whole),
+          .largest_von_mises = stress_largest / stress_most};
+}
+
+RestErrors errors(const RestState& found, const RestState& expected) {
+  std::vector<int> all(expected.von_mises.size());
+  std::iota(all.begin(), all.end(), 0);
+  return errors(found, expected, all);
+}
+
+std::vector<double> kernel_sums(const Problem<2>& problem, const Body<2>& body) {
+  std::vector<double> sums;
+  for (int a = 0; a < body.size(); ++a) {
+    double N = body.volume[a] * problem.kernel.value(0.0);
+    for (int pair = body.pairs.first[a]; pair < body.pairs.first[a + 1]; ++pair)
+      N += body.volume[body.pairs.neighbour[pair]] * problem.kernel.value(body.pairs.separation[pair].norm());
+    sums.push_back(N);
+  }
+  return sums;
+}
+
+Body<2> with_normalised_load(const Problem<2>& problem, Body<2> body) {
+  if (problem.scheme.kernel_normalisation == KernelNormalisation::none) return body;
+  const auto N = kernel_sums(problem, body);
+  for (int a = 0; a < body.size(); ++a) body.load[a] /= N[a];
+  return body;
+}
+
+Points displaced(const Body<2>& body, const Field<2>& displacement) {
+  Points points;
+  for (int a = 0; a < body.size(); ++a) {
+    const Vector<2> x = (body.position[a] + displacement[a]) / millimetre;
+    points.emplace_back(x[0], x[1]);
+  }
+  return points;
+}
+
+Points undisplaced(const Body<2>& body) { return displaced(body, Field<2>(body.size(), Vector<2>::Zero())); }
+
+}  // namespace sphstab::study::zhang
