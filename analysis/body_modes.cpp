@@ -16,8 +16,10 @@
 namespace sphstab::analysis {
 namespace {
 
-/// Eigenpairs of bodies with no more unknowns are all computed, by dense matrices.
-constexpr int most_dense_unknowns = 600;
+/// All eigenpairs are computed, by dense matrices, of bodies with few unknowns, and of larger ones of which a good part
+/// of the modes is asked for.
+constexpr int few_unknowns = 600, most_dense_unknowns = 3000;
+constexpr double good_part = 0.1;
 
 /// Unknowns times columns of a block: a few more vectors than modes that are asked for, so that the last ones converge
 /// as fast as the first; each restart adds two applications of the inverse.
@@ -59,20 +61,22 @@ EigenPairs rayleigh_ritz(const Eigen::SparseMatrix<double>& lower, const Eigen::
   return {ritz.eigenvalues().head(count), basis * ritz.eigenvectors().leftCols(count)};
 }
 
+Eigen::VectorXd residuals(const Eigen::SparseMatrix<double>& lower, const EigenPairs& pairs) {
+  const Eigen::MatrixXd image = lower.selfadjointView<Eigen::Lower>() * pairs.vectors;
+  return (image - pairs.vectors * pairs.values.asDiagonal()).colwise().norm();
+}
+
 bool converged(const Eigen::SparseMatrix<double>& lower, const EigenPairs& pairs, int count, double norm) {
-  const Eigen::MatrixXd x = pairs.vectors.leftCols(count);
-  const Eigen::MatrixXd residual =
-      lower.selfadjointView<Eigen::Lower>() * x - x * pairs.values.head(count).asDiagonal();
-  for (int i = 0; i < count; ++i)
-    if (residual.col(i).norm() > relative_residual * std::abs(pairs.values[i]) + absolute_residual * norm) return false;
-  return true;
+  const Eigen::ArrayXd allowed = relative_residual * pairs.values.array().abs() + absolute_residual * norm;
+  return (residuals(lower, pairs).array() <= allowed).head(count).all();
 }
 
 /// The lowest eigenpairs by restarted block Krylov spaces of the inverse. A block of as many vectors as eigenvalues
 /// that are asked for finds every eigenspace among them whole.
-EigenPairs lowest_pairs(Eigen::SparseMatrix<double> lower, const Eigen::MatrixXd& places, int count, double norm) {
+EigenPairs lowest_pairs(const Eigen::SparseMatrix<double>& lower, const Eigen::MatrixXd& places, int count,
+                        double norm) {
   const int n = static_cast<int>(lower.cols());
-  if (n <= most_dense_unknowns) {
+  if (n <= few_unknowns || (n <= most_dense_unknowns && count > good_part * n)) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> all{Eigen::MatrixXd(lower)};
     return {all.eigenvalues().head(count), all.eigenvectors().leftCols(count)};
   }
@@ -82,9 +86,9 @@ EigenPairs lowest_pairs(Eigen::SparseMatrix<double> lower, const Eigen::MatrixXd
     throw InvalidInput(fmt::format(
         "lowest_modes: {} of a body of {} unknowns would take {:.1f} GB, at most {:.0f} and a third of the modes",
         count, n, 1e-9 * cholesky.memory_with_factor(), 1e-9 * most_memory));
-  for (int i = 0; i < n; ++i) lower.coeffRef(i, i) += shift * norm;
-  cholesky.factorise(lower, SparseCholesky::Keep::factor);
-  for (int i = 0; i < n; ++i) lower.coeffRef(i, i) -= shift * norm;
+  Eigen::SparseMatrix<double> shifted = lower;
+  for (int i = 0; i < n; ++i) shifted.coeffRef(i, i) += shift * norm;
+  cholesky.factorise(shifted, SparseCholesky::Keep::factor);
 
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -155,7 +159,8 @@ std::vector<BodyMode> lowest_modes(const Problem<Dim>& problem, const Body<Dim>&
   const BodyOperator<Dim> op(problem, body);
   const double norm = op.norm_bound();
   const auto unknowns = static_cast<int>(op.unknowns().size());
-  const EigenPairs pairs = lowest_pairs(op.matrix(), op.places(), std::min(count, unknowns), norm);
+  const Eigen::SparseMatrix<double> matrix = op.matrix();
+  const EigenPairs pairs = lowest_pairs(matrix, op.places(), std::min(count, unknowns), norm);
 
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(op.components(), pairs.values.size());
   x(op.unknowns(), Eigen::all) = pairs.vectors;
@@ -171,12 +176,13 @@ std::vector<BodyMode> lowest_modes(const Problem<Dim>& problem, const Body<Dim>&
   const Eigen::VectorXd differences = energy_of_differences(op, s).diagonal();
   const Eigen::VectorXd rigid = (rigid_basis(op).transpose() * x).colwise().squaredNorm();
 
+  const Eigen::VectorXd residual = residuals(matrix, pairs);
   std::vector<BodyMode> modes;
   for (int i = 0; i < static_cast<int>(pairs.values.size()); ++i) {
     const BodyModeKind kind = rigid[i] > rigid_share                          ? BodyModeKind::rigid
                               : pairs.values[i] < felt_share * differences[i] ? BodyModeKind::zero_energy
                                                                               : BodyModeKind::vibration;
-    modes.push_back({std::sqrt(std::max(0.0, pairs.values[i])), kind, s.col(i)});
+    modes.push_back({std::sqrt(std::max(0.0, pairs.values[i])), kind, residual[i], s.col(i)});
   }
   return modes;
 }

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Frequencies below this, relative to the bound on them by positive terms, are sums that cancel: no force is felt.
-constexpr double cancelled = 1e-12;
+/// ω² below this part of what rounding adds to the operator comes of sums that cancel, squared: no force is felt.
+constexpr double cancelled = 1e-10;
 
 /// What is factorised without being asked for: about two minutes.
 constexpr int most_factorised_particles = 100000;
@@ -42,17 +42,18 @@ class LimitSearch {
       : operator_(problem, body), options_(options), steps_(problem) {}
 
   BodyLimit limit() {
-    const double norm = operator_.norm_bound();
+    const double rounding = operator_.rounding();
     prepare_factorisation();
     const LanczosResult top = find_top();
     const double largest = top.rayleigh_quotient;
-    if (!(largest > cancelled * cancelled * norm))
+    if (!(largest > cancelled * rounding))
       throw InvalidInput("smoothing_length: no particle of this body feels a force");
-    const UpperBound upper = find_bound(top, norm);
-    const double rounding = operator_.rounding() + operator_.components() * epsilon * largest;
+    const UpperBound upper = find_bound(top);
+    const double lower = largest - rounding - operator_.components() * epsilon * largest;
     const double step = step_of(largest);
     return {.critical_time_step = step,
-            .bracket = {std::min(step, step_of(upper.value)), step_of(std::max(0.5 * largest, largest - rounding))},
+            .bracket = {std::min(step, step_of(upper.value)),
+                        lower > 0.0 ? step_of(lower) : std::numeric_limits<double>::infinity()},
             .bracket_kind = upper.kind,
             .failure_probability = upper.kind == BoundKind::probabilistic ? options_.failure_probability : 0.0,
             .omega_max = std::sqrt(largest),
@@ -90,14 +91,14 @@ class LimitSearch {
                               lanczos);
   }
 
-  UpperBound find_bound(const LanczosResult& top, double norm) {
+  UpperBound find_bound(const LanczosResult& top) {
     if (cholesky_) return {BoundKind::factorisation, factorisation_bound(top.rayleigh_quotient)};
-    const UpperBound proven{BoundKind::norm_bound, norm};
+    const UpperBound proven{BoundKind::norm_bound, operator_.norm_bound()};
     if (options_.bound == BoundKind::norm_bound) return proven;
     const UpperBound probable{
         BoundKind::probabilistic,
         top.rayleigh_quotient * probable_ratio(options_.failure_probability, top.dimension, unknowns())};
-    return !options_.bound && norm <= probable.value ? proven : probable;
+    return !options_.bound && proven.value <= probable.value ? proven : probable;
   }
 
   /// The least σ tried such that σ − M^−½ S M^−½ has a factor, and what rounding may hide.

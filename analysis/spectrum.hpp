@@ -74,6 +74,7 @@ enum class BodyModeKind {
 struct BodyMode {
   double omega;
   BodyModeKind kind;
+  double residual;  ///< ‖K x − ω² x‖ / ‖x‖ as in BodyLimit; ω² is right to its square over the gap
   Eigen::VectorXd displacement;  ///< as in BodyLimit
 };
 

@@ -19,6 +19,9 @@ constexpr double in_balance = 1e-10;
 
 constexpr int most_iterations = 100000;
 
+/// ω² of what the load drives, xᵀ H x / xᵀ x, below this part of the norm of H is the rounding of no resistance.
+constexpr double no_resistance = 1e-12;
+
 /// Throws InvalidInput if the load drives a part of the body in a direction in which nothing of it is clamped.
 template <int Dim>
 void require_balance(const Body<Dim>& body, const BodyOperator<Dim>& op, const Eigen::VectorXd& weighted_load) {
@@ -64,10 +67,10 @@ Eigen::VectorXd static_displacement(const Problem<Dim>& problem, const Body<Dim>
   solver.compute(matrix);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(op.components());
   x(op.unknowns()) = solver.solve(load(op.unknowns()).eval());
-  if (solver.info() != Eigen::Success)
+  if (solver.info() != Eigen::Success || load.dot(x) < no_resistance * op.norm_bound() * x.squaredNorm())
     throw InvalidInput(
-        fmt::format("load: no equilibrium in {} iterations, relative residual {:.1e}; it drives a zero-energy mode, or "
-                    "one that meets next to no resistance",
+        fmt::format("load: it drives a zero-energy mode, which nothing resists; {} iterations left a relative residual "
+                    "of {:.1e}",
                     solver.iterations(), solver.error()));
   return op.displacement(x);
 }

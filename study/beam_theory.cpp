@@ -5,10 +5,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <boost/math/constants/constants.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
+#include <utility>
 
 #include "model/errors.hpp"
 #include "study/plane_moduli.hpp"
@@ -17,7 +18,7 @@ namespace sphstab::study {
 
 namespace {
 
-constexpr double pi = boost::math::constants::pi<double>();
+using std::numbers::pi;
 const boost::math::tools::eps_tolerance<double> to_rounding;
 
 double midpoint(const std::pair<double, double>& bracket) { return 0.5 * (bracket.first + bracket.second); }
@@ -69,23 +70,29 @@ int negative_eigenvalues(const Eigen::Matrix2d& symmetric) {
 
 /// The number of modes below the angular frequency b, rigid motions included, by Wittrick and Williams (1971): the
 /// negative eigenvalues of the dynamic stiffness of segments joined at nodes, given that no segment has a mode below b
-/// with clamped ends. None has where q·length < π/2: freed into a hinged and a guided end its lowest has q·length =
-/// π/2.
+/// with clamped ends. None has where q·length < π/2, because even with a hinged and a guided end its lowest has π/2.
 int modes_below(const UnitBeam& beam, double b) {
   const double q = largest_wave_number(beam, b);
-  const int segments = static_cast<int>(2.0 * q / pi) + 1;
+  // An even number: where slender beams vibrate, q ≈ (n ± ½)π, what lies behind a node then resonates at no node.
+  const int half = static_cast<int>(q / pi) + 1, segments = 2 * half;
   const Eigen::Matrix4d transfer = transfer_matrix(beam, b, q, q / segments);
   const Eigen::Matrix2d displacement_by_force = transfer.topRightCorner<2, 2>();
   const Eigen::Matrix2d stiffness_of_segment = displacement_by_force.inverse() * transfer.topLeftCorner<2, 2>();
-  Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();  // of all that lies behind the node, from the free end on
+  Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();  // for (w, φ), of all that lies behind the node
   int count = 0;
-  for (int segment = 0; segment < segments; ++segment) {
+  const auto eliminate_node = [&] {
     const Eigen::Matrix2d of_node = stiffness + stiffness_of_segment;
     count += negative_eigenvalues(of_node);
     stiffness = (transfer.bottomLeftCorner<2, 2>() + transfer.bottomRightCorner<2, 2>() * stiffness) *
                 (displacement_by_force * of_node).inverse();
+  };
+  if (beam.ends == BeamEnds::clamped_free) {
+    for (int node = 0; node < segments; ++node) eliminate_node();
+    return count;
   }
-  return beam.ends == BeamEnds::clamped_free ? count : count + negative_eigenvalues(stiffness);
+  for (int node = 0; node < half; ++node) eliminate_node();
+  // In the middle of a free beam two halves meet, mirrored: w and φ part, the stiffness is twice the diagonal.
+  return 2 * count + static_cast<int>((stiffness.diagonal().array() < 0.0).count());
 }
 
 }  // namespace

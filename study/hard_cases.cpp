@@ -107,8 +107,8 @@ HardCase courant_case(const Subject<Dim>& subject, std::string_view expected_fro
   const auto& problem = subject.problem;
   const double unit = problem.lattice.spacing() / p_wave_speed(problem);
   const auto theory = theory_limit<Dim>(problem, PeriodicPatch<Dim>{subject.cells}).critical_time_step;
-  const auto found =
-      bisect(GrowthRun<Dim>(problem, periodic_patch<Dim>(problem, subject.cells), 1), {.start = scan_start(problem)});
+  const auto found = bisect(GrowthRun<Dim>(problem, periodic_patch<Dim>(problem, subject.cells), 1),
+                            {.start = scan_start(problem, {problem.material})});
   return {.name = subject.name,
           .expected_from = expected_from,
           .expected = expected,

@@ -65,9 +65,11 @@ bool StepComparison::agrees(double tolerance) const {
 }
 
 template <int Dim>
-double scan_start(const Problem<Dim>& problem) {
-  const double modulus = problem.material.lame(problem.plane).p_wave_modulus();
-  const double of_waves = problem.kernel.smoothing_length() * std::sqrt(problem.material.density() / modulus);
+double scan_start(const Problem<Dim>& problem, const std::vector<Material>& materials) {
+  double fastest = 0.0;
+  for (const Material& material : materials)
+    fastest = std::max(fastest, std::sqrt(material.lame(problem.plane).p_wave_modulus() / material.density()));
+  const double of_waves = problem.kernel.smoothing_length() / fastest;
   const auto& damping = problem.scheme.damping;
   return start_fraction * (damping ? std::min(of_waves, 1.0 / damping->rate) : of_waves);
 }
@@ -118,7 +120,7 @@ StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& 
     throw InvalidInput("displacement_gradient: a body takes none, it would not be in equilibrium");
   const auto body = make_body(problem, choice);
   const auto theory = theory_limit(problem, choice);
-  const BisectionOptions search{.start = scan_start(problem),
+  const BisectionOptions search{.start = scan_start(problem, body.materials),
                                 .tolerance = options.tolerance,
                                 .horizon = options.horizon,
                                 .progress = options.progress};
@@ -131,17 +133,17 @@ StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& 
   return {found, theory, bulk_step(problem)};
 }
 
-template double scan_start(const Problem<1>&);
+template double scan_start(const Problem<1>&, const std::vector<Material>&);
 template TheoryLimit theory_limit(const Problem<1>&, const BodyChoice<1>&);
 template std::optional<double> bulk_step(const Problem<1>&);
 template solver::Field<1> critical_mode_displacement(const Problem<1>&, const BodyChoice<1>&);
 template StepComparison compare_step(const Problem<1>&, const BodyChoice<1>&, const RunOptions&, const GrowthProbe&);
-template double scan_start(const Problem<2>&);
+template double scan_start(const Problem<2>&, const std::vector<Material>&);
 template TheoryLimit theory_limit(const Problem<2>&, const BodyChoice<2>&);
 template std::optional<double> bulk_step(const Problem<2>&);
 template solver::Field<2> critical_mode_displacement(const Problem<2>&, const BodyChoice<2>&);
 template StepComparison compare_step(const Problem<2>&, const BodyChoice<2>&, const RunOptions&, const GrowthProbe&);
-template double scan_start(const Problem<3>&);
+template double scan_start(const Problem<3>&, const std::vector<Material>&);
 template TheoryLimit theory_limit(const Problem<3>&, const BodyChoice<3>&);
 template std::optional<double> bulk_step(const Problem<3>&);
 template solver::Field<3> critical_mode_displacement(const Problem<3>&, const BodyChoice<3>&);

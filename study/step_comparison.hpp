@@ -48,10 +48,10 @@ struct StepComparison {
   bool agrees(double tolerance) const;
 };
 
-/// Where a search by running starts, a rule of thumb well inside the stable range: 0.3 h over the p-wave speed, or 0.3
-/// over the damping rate, if that is less.
+/// Where a search by running starts, a rule of thumb well inside the stable range: 0.3 h over the largest p-wave speed
+/// of the materials, or 0.3 over the damping rate, if that is less.
 template <int Dim>
-double scan_start(const Problem<Dim>& problem);
+double scan_start(const Problem<Dim>& problem, const std::vector<Material>& materials);
 
 /// Theory alone, of the body and of the infinite lattice.
 template <int Dim>

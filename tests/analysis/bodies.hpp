@@ -105,7 +105,8 @@ Eigen::MatrixXd printed_operator(const Problem<Dim>& problem, const Body<Dim>& b
         if (a != moved / Dim && b != moved / Dim) continue;
         const Precise difference = (b == moved / Dim ? 1 : 0) - (a == moved / Dim ? 1 : 0);
         const PreciseVector dW = gradient(a, b);
-        for (int j = 0; j < Dim; ++j) displacement_gradient[moved % Dim][j] += body.volume[b] * difference * dW[j] / N[a];
+        for (int j = 0; j < Dim; ++j)
+          displacement_gradient[moved % Dim][j] += body.volume[b] * difference * dW[j] / N[a];
       }
       const Material& material = body.material_of(a);
       const Precise G = material.shear_modulus(), lambda = material.lame(problem.plane).lambda;
@@ -126,14 +127,12 @@ Eigen::MatrixXd printed_operator(const Problem<Dim>& problem, const Body<Dim>& b
       for (int b = 0; b < size; ++b) {
         const PreciseVector dW = gradient(a, b);
         for (int i = 0; i < Dim; ++i)
-          for (int j = 0; j < Dim; ++j)
-            acceleration[i] += body.volume[b] * (stress[a][i][j] + stress[b][i][j]) * dW[j];
+          for (int j = 0; j < Dim; ++j) acceleration[i] += body.volume[b] * (stress[a][i][j] + stress[b][i][j]) * dW[j];
       }
       for (int i = 0; i < Dim; ++i)
         if (!is_clamped(a * Dim + i))
-          K(a * Dim + i, moved) =
-              static_cast<double>(-acceleration[i] / (body.material_of(a).density() * N[a]) *
-                                  root_mass(a * Dim + i) / root_mass(moved));
+          K(a * Dim + i, moved) = static_cast<double>(-acceleration[i] / (body.material_of(a).density() * N[a]) *
+                                                      root_mass(a * Dim + i) / root_mass(moved));
     }
   }
   return K;

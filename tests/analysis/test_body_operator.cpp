@@ -17,8 +17,8 @@ using namespace sphstab::analysis;
 
 namespace {
 
-/// Kernel slopes right to 1e-15 of W(0)/h, differences of particles 1/2 to 3 apart, sums over up to 60 terms; relative to
-/// the largest eigenvalue.
+/// Kernel slopes right to 1e-15 of W(0)/h, differences of particles 1/2 to 3 apart, sums over up to 60 terms; relative
+/// to the largest eigenvalue.
 constexpr double rounding_tolerance = 1e-13;
 /// Backward error n ε of the two eigen-solvers, n = 60, and the entries' own rounding.
 constexpr double spectrum_tolerance = 1e-12;
@@ -53,7 +53,8 @@ void check_against_the_printed_sums(const Problem<Dim>& problem, const Body<Dim>
   BodyOperator<Dim> op(problem, body);
   CHECK((applied(op) - printed).cwiseAbs().maxCoeff() < rounding_tolerance * largest);
   CHECK((assembled(op) - printed).cwiseAbs().maxCoeff() < rounding_tolerance * largest);
-  CHECK((bodies::dense_eigenvalues(assembled(op)) - omega_squared).cwiseAbs().maxCoeff() < spectrum_tolerance * largest);
+  CHECK((bodies::dense_eigenvalues(assembled(op)) - omega_squared).cwiseAbs().maxCoeff() <
+        spectrum_tolerance * largest);
   // The stated rounding is that of the largest error seen, and not much more.
   CHECK((applied(op) - printed).operatorNorm() < op.rounding());
   CHECK(op.rounding() < 1e-11 * largest);

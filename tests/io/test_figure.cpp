@@ -205,6 +205,15 @@ TEST_CASE("circles and arrows are drawn beside particles, in panels of their own
   CHECK(count(render_svg(figure), "<path") > count(svg, "<path"));
 }
 
+TEST_CASE("a tall row of particles fits onto the page", "[fast]") {
+  ParticleFigure figure = particles();
+  for (int j = 0; j < 12; ++j) figure.panels[0].positions[j] = {0.0, 0.5 * j};
+  const auto drawn = markers(render_svg(figure), "gpPt6");
+  REQUIRE(drawn.size() == 12);
+  for (const auto& marker : drawn) CHECK(marker.y > marker.radius);
+  CHECK(drawn[0].radius == Approx(0.2 / 5.5 * (drawn[0].y - drawn[11].y)).margin(0.05));
+}
+
 TEST_CASE("particles that are not finite are left out", "[fast]") {
   ParticleFigure figure = particles();
   const auto whole = markers(render_svg(figure), "gpPt6");

@@ -73,6 +73,17 @@ TEST_CASE("growth of a nearly incompressible plate ends where its largest freque
   check(problem, free_plate(problem, LatticeIndex<2>(8, 7)));
 }
 
+TEST_CASE("loads leave growth as it is, bit by bit", "[fast]") {
+  const Problem<2> problem = plain_problem();
+  const Body<2> beam = clamped_at_left(free_plate(problem, LatticeIndex<2>(8, 4)));
+  const double time_step = 1.01 * step_from_frequencies(problem, beam);
+  const auto expected = GrowthRun<2>(problem, beam, 1)(time_step, 400);
+  const auto found = GrowthRun<2>(problem, loaded(beam, {0.3, -7.0}), 1)(time_step, 400);
+  CHECK(expected.trend == solver::Trend::growing);
+  CHECK(found.growth_per_step == expected.growth_per_step);
+  CHECK(found.steps == expected.steps);
+}
+
 TEST_CASE("a body that is clamped all over has no perturbation to grow", "[fast]") {
   const Problem<2> problem = plain_problem();
   Body<2> body = free_plate(problem, LatticeIndex<2>(4, 4));
