@@ -8,7 +8,8 @@ namespace sphstab::study {
 
 namespace {
 
-constexpr std::array<ReportMaker, 4> makers{{{"zhang-plate", zhang_plate_report},
+constexpr std::array<ReportMaker, 5> makers{{{"zhang-plate", zhang_plate_report},
+                                             {"zhang-case-1", zhang_case_1_report},
                                              {"bands", band_report},
                                              {"stability-tables", stability_tables_report},
                                              {"hard-cases", hard_cases_report}}};
