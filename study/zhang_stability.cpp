@@ -22,10 +22,10 @@ using solver::State;
 /// Of the largest eigenvalue: nothing but rounding is left, so that curves are smooth where they are minimised.
 constexpr double spectrum_tolerance = 1e-13;
 /// H/Δ between which Fig. 16 has its minima and the two curves meet.
-constexpr double least_ratio = 0.55, largest_ratio = 1.1, widest_ratio = 2.5, narrowest_ratio = 0.4;
+constexpr double least_ratio = 0.55, largest_ratio = 1.1, widest_ratio = 2.2, narrowest_ratio = 0.4;
 /// Bits of a minimum; half as many are left of where it is.
 constexpr int bits_of_minimum = 40;
-constexpr double ratio_tolerance = 1e-9;
+constexpr double ratio_tolerance = 1e-5;
 
 /// Nonlinear plates: first part of the critical step without load, and how often it is halved.
 constexpr double first_fraction = 0.4;
@@ -94,10 +94,19 @@ std::pair<double, double> unstable_range(double time_step, KernelNormalisation n
   return {root(excess, narrowest_ratio, slowest), root(excess, slowest, widest_ratio)};
 }
 
-Bisection bisect_loaded(const Problem<2>& problem, const Body<2>& body, const Field<2>& rest, double tolerance) {
+Bisection bisect_loaded(const Problem<2>& problem, const Body<2>& body, const Field<2>& rest, double tolerance,
+                        std::optional<long> horizon) {
   GrowthRun<2> run(problem, body, rest, noise_seed);
-  return bisect([&](double time_step, long horizon) { return run(time_step, horizon); },
-                {.start = start_fraction * scan_start(problem, body.materials), .tolerance = tolerance});
+  return bisect(
+      [&](double time_step, long steps) { return run(time_step, steps); },
+      {.start = start_fraction * scan_start(problem, body.materials), .tolerance = tolerance, .horizon = horizon});
+}
+
+std::optional<double> growth_rate(const Problem<2>& problem, const Body<2>& body, const Field<2>& rest,
+                                  double time_step, long horizon) {
+  const auto fit = GrowthRun<2>(problem, body, rest, noise_seed)(time_step, horizon);
+  if (fit.trend != solver::Trend::growing) return std::nullopt;
+  return fit.growth_per_step / time_step;
 }
 
 std::optional<Field<2>> nonlinear_rest(const Problem<2>& problem, const Body<2>& body) {

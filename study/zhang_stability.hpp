@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,8 +43,14 @@ double crossing_of_normalisation(Plane plane);
 /// The H/Δ between which a step is above the critical one.
 std::pair<double, double> unstable_range(double time_step, KernelNormalisation normalisation);
 
-/// By bisection on runs about the loaded plate at rest.
-Bisection bisect_loaded(const Problem<2>& problem, const Body<2>& body, const solver::Field<2>& rest, double tolerance);
+/// By bisection on runs about the loaded plate at rest, of at most `horizon` steps if it is given.
+Bisection bisect_loaded(const Problem<2>& problem, const Body<2>& body, const solver::Field<2>& rest, double tolerance,
+                        std::optional<long> horizon = std::nullopt);
+
+/// Growth (1/time) of what departs from the loaded plate at rest at a small step, in a run of so many steps, or four
+/// times as many while it is undecided; absent: none shows.
+std::optional<double> growth_rate(const Problem<2>& problem, const Body<2>& body, const solver::Field<2>& rest,
+                                  double time_step, long horizon);
 
 /// Where a nonlinear plate (`density_in_momentum` equation-of-state) comes to rest by running, with steps that are
 /// halved until it does; absent: it never did.
@@ -54,8 +61,8 @@ std::optional<solver::Field<2>> nonlinear_rest(const Problem<2>& problem, const 
 double growth_per_step(double omega, double time_step);
 
 /// The same by running the loaded plate so many steps from its rest with one particle pushed aside. What departs from
-/// rest is scaled back again and again, which a linear scheme allows. After n steps the growth is too small by at most
-/// some 1/(2en), whatever the distance to the next mode.
+/// rest is scaled back again and again, which a linear scheme allows. After n steps a second mode that grows slower by
+/// g takes g exp(−2gn) off, at most 1/(2en) whatever g is.
 double measured_growth_per_step(const Problem<2>& problem, const Body<2>& body, const solver::Field<2>& rest,
                                 double time_step, long steps);
 
