@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/zhang_statics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -9,6 +11,7 @@
 #include "solver/stress.hpp"
 #include "study/relaxation.hpp"
 #include "study/rigid_motion.hpp"
+#include "study/zhang_cases.hpp"
 
 namespace sphstab::study::zhang {
 namespace {
@@ -18,10 +21,19 @@ using solver::Field;
 /// Part of the critical step at which a body is relaxed (RelaxationOptions::time_step).
 constexpr double step_fraction = 0.85;
 
-RestState state_of(const Problem<2>& problem, const Body<2>& body, const Field<2>& displacement) {
+constexpr int rigid_motions_of_a_plane = 3;
+
+Field<2> to_field(const Eigen::VectorXd& components) {
+  Field<2> field;
+  for (int a = 0; 2 * a < components.size(); ++a) field.emplace_back(components.segment<2>(2 * a));
+  return field;
+}
+
+RestState state_of(const Problem<2>& problem, const Body<2>& body, const Motions& motions,
+                   const Field<2>& displacement) {
   const solver::Simulation<2> simulation(problem, body);
   solver::State<2> state(body.size());
-  state.displacement = remove_rigid_motion(body, displacement);
+  state.displacement = remove_rigid_motion(body, without(motions, problem, body, displacement));
   RestState rest{state.displacement, {}, {}};
   for (int a = 0; a < body.size(); ++a) {
     rest.strain.push_back(simulation.strain(state, a));
@@ -32,18 +44,35 @@ RestState state_of(const Problem<2>& problem, const Body<2>& body, const Field<2
 
 }  // namespace
 
-RestState rest_by_theory(const Problem<2>& problem, const Body<2>& body) {
-  const Eigen::VectorXd all = analysis::static_displacement(problem, body);
-  Field<2> displacement;
-  for (int a = 0; a < body.size(); ++a) displacement.emplace_back(all.segment<2>(2 * a));
-  return state_of(problem, body, displacement);
+Motions nearly_rigid_motions(const Problem<2>& problem, const Body<2>& body) {
+  Motions motions;
+  for (const auto& mode : analysis::lowest_modes(problem, body, rigid_motions_of_a_plane))
+    if (mode.kind == analysis::BodyModeKind::rigid) motions.push_back(to_field(mode.displacement));
+  return motions;
 }
 
-RestState rest_by_running(const Problem<2>& problem, const Body<2>& body) {
+Field<2> without(const Motions& motions, const Problem<2>& problem, const Body<2>& body, Field<2> field) {
+  const solver::Simulation<2> simulation(problem, body);
+  for (const auto& motion : motions) {
+    double along = 0.0, square = 0.0;
+    for (int a = 0; a < body.size(); ++a) {
+      along += simulation.inertia(a) * motion[a].dot(field[a]);
+      square += simulation.inertia(a) * motion[a].squaredNorm();
+    }
+    for (int a = 0; a < body.size(); ++a) field[a] -= along / square * motion[a];
+  }
+  return field;
+}
+
+RestState rest_by_theory(const Problem<2>& problem, const Body<2>& body, const Motions& motions) {
+  return state_of(problem, body, motions, to_field(analysis::static_displacement(problem, body)));
+}
+
+RestState rest_by_running(const Problem<2>& problem, const Body<2>& body, const Motions& motions) {
   const auto limit = analysis::body_limit(problem, body, {.bound = analysis::BoundKind::norm_bound});
   const auto found =
       relax(problem, body, {.time_step = step_fraction * limit.critical_time_step, .tolerance = running_tolerance});
-  return state_of(problem, body, found.displacement);
+  return state_of(problem, body, motions, found.displacement);
 }
 
 RestState rest_of(const Body<2>& body, const std::function<ElasticState(const Vector<2>&)>& elastic_state) {
@@ -112,6 +141,27 @@ Points displaced(const Body<2>& body, const Field<2>& displacement) {
     points.emplace_back(x[0], x[1]);
   }
   return points;
+}
+
+io::LineFigure line_figure(const std::string& title, const std::string& x_label, const std::string& y_label) {
+  io::LineFigure figure;
+  figure.title = title;
+  figure.x_label = x_label;
+  figure.y_label = y_label;
+  return figure;
+}
+
+io::ParticleFigure particle_figure(const std::string& title, const std::string& value_label) {
+  return {.title = title,
+          .x_label = "x [mm]",
+          .y_label = "y [mm]",
+          .value_label = value_label,
+          .radius = 0.4 * particle_spacing / millimetre,
+          .panels = {}};
+}
+
+std::string image(std::string_view caption, std::string_view number) {
+  return fmt::format("![{}](figure_{}.svg)\n\n", caption, number);
 }
 
 Points undisplaced(const Body<2>& body) { return displaced(body, Field<2>(body.size(), Vector<2>::Zero())); }
