@@ -545,7 +545,7 @@ double departure_from_scaling(const std::vector<ScaledPlate>& plates) {
 
 constexpr double explosive_step = 4e-3;
 constexpr std::array<long, 4> drawn_steps{1, 2, 3, 4};
-constexpr long growth_steps = 60000;
+constexpr long growth_steps = 40000;
 constexpr double growth_tolerance = 1e-5;
 /// A corner is its 4×4 particles: at most a twenty-fifth of the plate.
 constexpr int corner_particles = 4;
