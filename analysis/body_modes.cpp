@@ -39,9 +39,10 @@ constexpr double null_eigenvalue = 1e-12;
 /// have more than half.
 constexpr double rigid_share = 0.9;
 
-/// ω² of a zero-energy mode is below this part of what the differences of neighbours stand for. Long waves have one or
-/// more.
-constexpr double felt_share = 0.1;
+/// ω² of a zero-energy mode is below this part of what the differences of neighbours stand for (long waves have one or
+/// more), and its displacements agree with those of their neighbours less than this: 1 is a long wave, 0 or less one
+/// that alternates. Long waves with a trace of the other kind, which the first alone would take for it, have more.
+constexpr double felt_share = 0.1, least_agreement = 0.5;
 
 constexpr double most_memory = 6e9;
 
@@ -143,6 +144,27 @@ Eigen::MatrixXd energy_of_differences(const BodyOperator<Dim>& op, const Eigen::
   return energy;
 }
 
+/// Σ_a m_a s_a · (mean of s_b over the neighbours, weighted by V_b (−W'/r)) over Σ_a m_a |s_a|², for each column.
+template <int Dim>
+Eigen::VectorXd agreement_with_neighbours(const BodyOperator<Dim>& op, const Eigen::MatrixXd& s) {
+  const Body<Dim>& body = op.body();
+  Eigen::VectorXd agreement = Eigen::VectorXd::Zero(s.cols()), square = agreement;
+  for (int a = 0; a < body.size(); ++a) {
+    const Eigen::MatrixXd own = s.middleRows<Dim>(a * Dim);
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(Dim, s.cols());
+    double weights = 0.0;
+    for (int p = body.pairs.first[a]; p < body.pairs.first[a + 1]; ++p) {
+      const Vector<Dim>& r = body.pairs.separation[p];
+      const double weight = -op.gradient(p).dot(r) / r.squaredNorm();
+      sum += weight * s.middleRows<Dim>(body.pairs.neighbour[p] * Dim);
+      weights += weight;
+    }
+    if (weights > 0.0) agreement += body.mass(a) / weights * own.cwiseProduct(sum).colwise().sum().transpose();
+    square += body.mass(a) * own.colwise().squaredNorm().transpose();
+  }
+  return agreement.cwiseQuotient(square);
+}
+
 /// An orthonormal basis of M^½ (rigid motions), over all components.
 template <int Dim>
 Eigen::MatrixXd rigid_basis(const BodyOperator<Dim>& op) {
@@ -174,14 +196,16 @@ std::vector<BodyMode> lowest_modes(const Problem<Dim>& problem, const Body<Dim>&
   }
   const Eigen::MatrixXd s = displacements();
   const Eigen::VectorXd differences = energy_of_differences(op, s).diagonal();
+  const Eigen::VectorXd agreement = agreement_with_neighbours(op, s);
   const Eigen::VectorXd rigid = (rigid_basis(op).transpose() * x).colwise().squaredNorm();
 
   const Eigen::VectorXd residual = residuals(matrix, pairs);
   std::vector<BodyMode> modes;
   for (int i = 0; i < static_cast<int>(pairs.values.size()); ++i) {
-    const BodyModeKind kind = rigid[i] > rigid_share                          ? BodyModeKind::rigid
-                              : pairs.values[i] < felt_share * differences[i] ? BodyModeKind::zero_energy
-                                                                              : BodyModeKind::vibration;
+    const bool hardly_felt = pairs.values[i] < felt_share * differences[i] && agreement[i] < least_agreement;
+    const BodyModeKind kind = rigid[i] > rigid_share ? BodyModeKind::rigid
+                              : hardly_felt          ? BodyModeKind::zero_energy
+                                                     : BodyModeKind::vibration;
     modes.push_back({std::sqrt(std::max(0.0, pairs.values[i])), kind, residual[i], s.col(i)});
   }
   return modes;

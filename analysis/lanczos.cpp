@@ -90,13 +90,17 @@ Tridiagonal recurrence(const SymmetricOperator& apply, const Eigen::VectorXd& st
   }
 }
 
+/// Eigenvalues that differ by no more than the residual are seen as one, with their mean for its value, and the gap is
+/// that to the others: so the residual itself has to be below this many tolerances.
+constexpr double spread = 100.0;
+
 /// Residual and gap bound the error of a Ritz value: the lesser of r and r²/gap.
 bool converged(const Tridiagonal& T, double tolerance) {
   const double theta = T.eigenvalue(0);
   const double residual = T.off_diagonal.back() * std::abs(T.eigenvector(theta)[T.size() - 1]);
   const double allowed = tolerance * std::abs(theta);
   if (residual <= allowed || T.size() < 2) return residual <= allowed;
-  return residual * residual <= allowed * (theta - T.eigenvalue(1));
+  return residual <= spread * allowed && residual * residual <= allowed * (theta - T.eigenvalue(1));
 }
 
 double log_share(double failure_probability, int dimension, int unknowns) {

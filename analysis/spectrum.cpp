@@ -9,9 +9,9 @@
 #include <random>
 
 #include "analysis/body_operator.hpp"
+#include "analysis/factorisation_bound.hpp"
 #include "analysis/lanczos.hpp"
 #include "analysis/mode_step.hpp"
-#include "analysis/sparse_cholesky.hpp"
 
 namespace sphstab::analysis {
 namespace {
@@ -27,12 +27,13 @@ constexpr double most_multiplications = 1e12;
 /// What is factorised at all.
 constexpr double most_memory = 4e9;
 
-/// σ lies the tolerance above the Ritz value, and after each failure so many times more.
-constexpr double wider = 16.0;
+/// Lanczos is asked again, for a hundredth of the tolerance each time, where it missed the largest eigenvalue.
+constexpr double finer = 1e-2, finest_tolerance = 1e-14;
 
 struct UpperBound {
   BoundKind kind;
   double value;
+  double margin = 0.0;  ///< of a factorisation, relative, above the approximation
 };
 
 template <int Dim>
@@ -44,11 +45,19 @@ class LimitSearch {
   BodyLimit limit() {
     const double rounding = operator_.rounding();
     prepare_factorisation();
-    const LanczosResult top = find_top();
-    const double largest = top.rayleigh_quotient;
-    if (!(largest > cancelled * rounding))
+    LanczosResult top = find_top(options_.tolerance);
+    if (!(top.rayleigh_quotient > cancelled * rounding))
       throw InvalidInput("smoothing_length: no particle of this body feels a force");
-    const UpperBound upper = find_bound(top);
+    UpperBound upper = find_bound(top);
+    // A factorisation that fails has seen an eigenvalue that Lanczos took for one with those below it.
+    for (double tolerance = options_.tolerance; upper.margin > options_.tolerance && tolerance > finest_tolerance;) {
+      tolerance *= finer;
+      const long applications = top.applications;
+      top = find_top(tolerance);
+      top.applications += applications;
+      upper = find_bound(top);
+    }
+    const double largest = top.rayleigh_quotient;
     const double lower = largest - rounding - operator_.components() * epsilon * largest;
     const double step = step_of(largest);
     return {.critical_time_step = step,
@@ -69,22 +78,21 @@ class LimitSearch {
   void prepare_factorisation() {
     const bool asked = options_.bound == BoundKind::factorisation;
     if (!asked && (options_.bound || operator_.body().size() > most_factorised_particles)) return;
-    matrix_ = operator_.matrix();
-    cholesky_.emplace(matrix_, operator_.places());
-    if (asked && cholesky_->memory() > most_memory)
+    factorisation_.emplace(operator_);
+    if (asked && factorisation_->memory() > most_memory)
       throw InvalidInput(fmt::format("upper_bound: a factorisation of this body would take {:.0f} GB, at most {:.0f}",
-                                     1e-9 * cholesky_->memory(), 1e-9 * most_memory));
-    if (!asked && (cholesky_->memory() > most_memory || cholesky_->multiplications() > most_multiplications))
-      cholesky_.reset();
+                                     1e-9 * factorisation_->memory(), 1e-9 * most_memory));
+    if (!asked && (factorisation_->memory() > most_memory || factorisation_->multiplications() > most_multiplications))
+      factorisation_.reset();
   }
 
-  LanczosResult find_top() {
+  LanczosResult find_top(double tolerance) {
     std::mt19937_64 random(options_.seed);
     std::normal_distribution<double> normal;  // of every free component: no direction is preferred
     Eigen::VectorXd start = Eigen::VectorXd::Zero(operator_.components());
     for (const int i : operator_.unknowns()) start[i] = normal(random);
-    LanczosOptions lanczos{.tolerance = options_.tolerance, .progress = options_.progress};
-    if (!cholesky_ && options_.bound != BoundKind::norm_bound)
+    LanczosOptions lanczos{.tolerance = tolerance, .progress = options_.progress};
+    if (!factorisation_ && options_.bound != BoundKind::norm_bound)
       lanczos.fewest =
           dimension_for_ratio(1.0 + options_.probabilistic_width, options_.failure_probability, unknowns());
     return largest_eigenvalue([this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { operator_.apply(x, y); }, start,
@@ -92,7 +100,10 @@ class LimitSearch {
   }
 
   UpperBound find_bound(const LanczosResult& top) {
-    if (cholesky_) return {BoundKind::factorisation, factorisation_bound(top.rayleigh_quotient)};
+    if (factorisation_) {
+      const auto [value, margin] = factorisation_->above(top.rayleigh_quotient, options_.tolerance);
+      return {BoundKind::factorisation, value, margin};
+    }
     const UpperBound proven{BoundKind::norm_bound, operator_.norm_bound()};
     if (options_.bound == BoundKind::norm_bound) return proven;
     const UpperBound probable{
@@ -101,25 +112,12 @@ class LimitSearch {
     return !options_.bound && proven.value <= probable.value ? proven : probable;
   }
 
-  /// The least σ tried such that σ − M^−½ S M^−½ has a factor, and what rounding may hide.
-  double factorisation_bound(double largest) {
-    const Eigen::VectorXd diagonal = matrix_.diagonal();
-    matrix_ *= -1.0;
-    for (double margin = options_.tolerance;; margin *= wider) {
-      const double sigma = largest * (1.0 + margin);
-      for (int i = 0; i < matrix_.cols(); ++i) matrix_.coeffRef(i, i) = sigma - diagonal[i];
-      if (cholesky_->factorise(matrix_, SparseCholesky::Keep::nothing))
-        return sigma + cholesky_->backward_error() + operator_.rounding() + 4.0 * epsilon * sigma;
-    }
-  }
-
   int unknowns() const { return static_cast<int>(operator_.unknowns().size()); }
 
   BodyOperator<Dim> operator_;
   const BodyLimitOptions& options_;
   ModeSteps steps_;
-  Eigen::SparseMatrix<double> matrix_;
-  std::optional<SparseCholesky> cholesky_;
+  std::optional<FactorisationBound> factorisation_;
 };
 
 }  // namespace

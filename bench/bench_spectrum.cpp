@@ -80,7 +80,9 @@ void print_row(const Problem<2>& problem, int side, double jitter) {
       continue;
     }
     BodyLimit limit{};
-    const double time = seconds_of([&] { limit = body_limit(problem, body, {.bound = kind, .tolerance = 1e-8}); });
+    const double time = seconds_of([&] {
+      limit = body_limit(problem, body, {.bound = kind, .tolerance = kind == BoundKind::factorisation ? 1e-8 : 1e-4});
+    });
     fmt::print("  {:>8.2f} {:>9.1e}", time, limit.bracket.high / limit.bracket.low - 1.0);
   }
   fmt::print("\n");

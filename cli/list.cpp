@@ -3,14 +3,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "cli/command.hpp"
+#include "io/files.hpp"
 #include "model/problem.hpp"
 
 namespace sphstab::cli {
 namespace {
 
-constexpr std::array<std::string_view, 5> topics{"kernels", "lattices", "schemes", "integrators", "keys"};
+constexpr std::array<std::string_view, 6> topics{"kernels", "lattices", "schemes", "integrators", "scenes", "keys"};
+
+/// Where scene files are looked for, below the current folder.
+constexpr const char* scene_folder = "scenes";
 
 Json list_kernels() {
   Json rows = Json::array();
@@ -58,6 +63,29 @@ Json list_words(std::string_view key, const std::vector<KeyGroup>& groups) {
   return rows;
 }
 
+/// The comment that a scene file begins with, after its licence, up to the first full stop.
+std::string description_of(const std::filesystem::path& file) {
+  std::string description;
+  const std::string text = io::read_file(file);
+  for (const auto line : split(text, '\n')) {
+    if (!line.starts_with("# ")) break;
+    if (line.starts_with("# SPDX")) continue;
+    description += (description.empty() ? "" : " ") + std::string(line.substr(2));
+  }
+  return description.substr(0, description.find(". "));
+}
+
+Json list_scenes() {
+  std::vector<std::filesystem::path> files;
+  if (std::filesystem::is_directory(scene_folder))
+    for (const auto& entry : std::filesystem::directory_iterator(scene_folder))
+      if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  Json rows = Json::array();
+  for (const auto& file : files) rows.push_back({{"name", file.string()}, {"help", description_of(file)}});
+  return rows;
+}
+
 Json list_keys() {
   Json rows = Json::array();
   for (const Key& key : key_table()) {
@@ -74,6 +102,7 @@ Json list_topic(std::string_view topic) {
   if (topic == "lattices") return list_lattices();
   if (topic == "schemes") return list_words("scheme", {KeyGroup::scheme, KeyGroup::material});
   if (topic == "integrators") return list_words("integrator", {});
+  if (topic == "scenes") return list_scenes();
   return list_keys();
 }
 

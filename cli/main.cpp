@@ -161,7 +161,7 @@ class Program {
   }
 
   void add_list() {
-    CLI::App* app = add("list", "the names and parameters of kernels, lattices, schemes, integrators and keys");
+    CLI::App* app = add("list", "the names and parameters of kernels, lattices, schemes, integrators, scenes and keys");
     app->add_option("topic", argument_, "one of them; default: all")->type_name("");
     add_format(*app, output_.format);
     actions_.push_back({app, [this] {

@@ -178,12 +178,25 @@ struct Layout {
   double height() const { return rows * (above_area + height_of_area + below_area) + title; }
 };
 
-/// 1, 2 or 5 times a power of ten: the smallest that makes at most four steps of the length.
-double tick_step(double length) {
-  const double power = std::pow(10.0, std::floor(std::log10(length / 4.0)));
+/// 1, 2 or 5 times a power of ten: the smallest that makes at most so many steps of the length.
+double tick_step(double length, double most = 4.0) {
+  const double power = std::pow(10.0, std::floor(std::log10(length / most)));
   for (const double step : {1.0, 2.0, 5.0})
-    if (step * power >= length / 4.0) return step * power;
+    if (step * power >= length / most) return step * power;
   return 10.0 * power;
+}
+
+/// Ticks of the colours beside an area of that height, far enough apart for their labels.
+std::string colour_ticks(const ParticleFigure& figure, const ParticlePanel& panel, double height) {
+  auto range = figure.value_range.value_or(std::pair(0.0, 0.0));
+  if (!figure.value_range && !panel.values.empty()) {
+    const auto [low, high] = std::minmax_element(panel.values.begin(), panel.values.end());
+    range = {*low, *high};
+  }
+  const double length = range.second - range.first;
+  if (!(length > 0.0) || !std::isfinite(length)) return "set cbtics auto\n";
+  constexpr double height_of_tick = 36.0;
+  return fmt::format("set cbtics {}\n", tick_step(length, std::clamp(height / height_of_tick, 1.0, 4.0)));
 }
 
 /// The data of a panel: x y value arrow, and its circles.
@@ -220,7 +233,9 @@ std::string plot_of(const ParticleFigure& figure, const Layout& layout, int i) {
   const ParticlePanel& panel = figure.panels[i];
   std::string script = fmt::format("set title {} noenhanced\n{} colorbox\n", quoted(panel.title),
                                    panel.values.empty() ? "unset" : "set");
-  const double scale = place(extent_of(panel, figure.radius), layout, i, script);
+  const Extent extent = extent_of(panel, figure.radius);
+  const double scale = place(extent, layout, i, script);
+  script += colour_ticks(figure, panel, scale * extent.height());
   const double size = scale * figure.radius / radius_of_point;
   script += fmt::format("plot $particles{} using 1:2{} with points pointtype 7 pointsize {} linecolor {} notitle", i,
                         panel.values.empty() ? "" : ":3", size, panel.values.empty() ? "rgb '#D55E00'" : "palette");

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -120,9 +121,10 @@ Body<Dim> periodic_patch(const Problem<Dim>& problem, const LatticeIndex<Dim>& c
 template <int Dim>
 Body<Dim> free_plate(const Problem<Dim>& problem, const LatticeIndex<Dim>& particles) {
   require_counts<Dim>("plate", particles, 2);
-  if (problem.lattice.kind() != LatticeKind::square)
-    throw InvalidInput(
-        fmt::format("plate: a free plate needs the lattice square, not {}", name_of(problem.lattice.kind())));
+  constexpr std::array rectangular{LatticeKind::chain, LatticeKind::square, LatticeKind::cubic};
+  if (problem.lattice.kind() != rectangular[Dim - 1])
+    throw InvalidInput(fmt::format("plate: a free plate needs the lattice {}, not {}", name_of(rectangular[Dim - 1]),
+                                   name_of(problem.lattice.kind())));
   return block_of_lattice(problem, particles, Boundary::free);
 }
 

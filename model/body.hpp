@@ -50,8 +50,9 @@ NeighbourPairs<Dim> find_pairs(const std::vector<Vector<Dim>>& position, double 
 template <int Dim>
 Body<Dim> periodic_patch(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
 
-/// A free rectangular plate of n_x × n_y particles on the square lattice, particle (i, j) at (iΔp, jΔp), x fastest.
-/// Throws InvalidInput (`plate`) unless the lattice is square and every count is at least 2.
+/// A free rectangular plate of n_x × n_y particles on the square lattice, particle (i, j) at (iΔp, jΔp), x fastest; in
+/// 1-D a bar on the chain, in 3-D a block on the cubic lattice. Throws InvalidInput (`plate`) on other lattices and
+/// unless every count is at least 2.
 template <int Dim>
 Body<Dim> free_plate(const Problem<Dim>& problem, const LatticeIndex<Dim>& particles);
 

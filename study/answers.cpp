@@ -144,7 +144,8 @@ struct BisectionSubject {
 template <int Dim>
 BisectionSubject<Dim> bisection_subject(const Case& input) {
   if (names_body(input)) {
-    if (input.has("patch")) throw InvalidInput("patch: cannot be given with plate or scene");
+    if (input.has("patch"))
+      throw InvalidInput(fmt::format("patch: cannot be given with {}", input.has("scene") ? "scene" : "plate"));
     Scene<Dim> scene = make_scene<Dim>(input);
     return {scene.problem, std::move(scene.body), body_name(input)};
   }

@@ -11,6 +11,7 @@
 #include "io/scene_input.hpp"
 #include "study/answers.hpp"
 #include "study/json_values.hpp"
+#include "study/particle_pictures.hpp"
 #include "study/scene_input.hpp"
 #include "study/scene_run.hpp"
 #include "study/step_comparison.hpp"
@@ -30,6 +31,29 @@ constexpr std::string_view kind_name(analysis::BodyModeKind kind) {
       return "zero-energy";
   }
   return "";
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> to_vectors(const Eigen::VectorXd& components) {
+  std::vector<Vector<Dim>> vectors;
+  for (Eigen::Index i = 0; i < components.size(); i += Dim) vectors.push_back(components.template segment<Dim>(i));
+  return vectors;
+}
+
+constexpr int most_modes_in_picture = 12;
+
+/// Mode shapes of a spectrum: states of an HDF5 file with the frequencies as times, and pictures.
+template <int Dim>
+void write_modes(const Body<Dim>& body, const std::string& file, const std::string& title,
+                 const std::vector<std::pair<double, std::vector<Vector<Dim>>>>& modes, io::OutputFolder& folder) {
+  io::ParticleFile states(folder.assembly(file + ".h5"), body);
+  std::vector<std::pair<std::string, std::vector<Vector<Dim>>>> drawn;
+  for (const auto& [frequency, shape] : modes) {
+    states.add_state(frequency, {io::vector_field<Dim>("displacement", shape)});
+    if (drawn.size() < most_modes_in_picture) drawn.emplace_back(fmt::format("{:.6g} Hz", frequency), shape);
+  }
+  states.finish();
+  if (body.size() <= largest_picture) folder.write(file + ".svg", io::render_svg(mode_figure<Dim>(title, body, drawn)));
 }
 
 template <int Dim>
@@ -54,7 +78,12 @@ Json spectrum_answer(const Case& input, const Request& request) {
     answer["bulk_theory"] = number_or_null(bulk);
     answer["patch_deficit"] = bulk ? Json(limit.critical_time_step / *bulk - 1.0) : Json();
   }
+  using Shapes = std::vector<std::pair<double, std::vector<Vector<Dim>>>>;
+  if (request.folder != nullptr)
+    write_modes<Dim>(scene.body, "critical_mode", "Mode of the critical time step",
+                     Shapes{{limit.omega_max * hertz, to_vectors<Dim>(limit.displacement)}}, *request.folder);
   if (const auto count = input.number("lowest_modes")) {
+    Shapes shapes;
     const auto modes = analysis::lowest_modes(scene.problem, scene.body, static_cast<int>(*count));
     std::map<std::string_view, int> found{{"rigid", 0}, {"zero-energy", 0}, {"vibration", 0}};
     answer["frequencies"] = answer["mode_kinds"] = Json::array();
@@ -62,10 +91,14 @@ Json spectrum_answer(const Case& input, const Request& request) {
       answer["frequencies"].push_back(mode.omega * hertz);
       answer["mode_kinds"].push_back(kind_name(mode.kind));
       ++found[kind_name(mode.kind)];
+      if (request.folder != nullptr) shapes.emplace_back(mode.omega * hertz, to_vectors<Dim>(mode.displacement));
     }
+    if (request.folder != nullptr)
+      write_modes<Dim>(scene.body, "lowest_modes", "Lowest modes", shapes, *request.folder);
     answer["rigid_modes"] = found["rigid"];
     answer["zero_energy_modes"] = found["zero-energy"];
   }
+  if (request.folder != nullptr) request.folder->write("summary.json", io::write(answer, io::Format::json));
   return answer;
 }
 
@@ -97,8 +130,8 @@ Json to_json(const SceneSummary& summary) {
 template <int Dim>
 class RunFiles {
  public:
-  RunFiles(const Scene<Dim>& scene, io::OutputFolder* folder) : folder_(folder) {
-    if (folder_ != nullptr) states_.emplace(folder_->assembly("states.h5"), scene.body);
+  RunFiles(const Body<Dim>& body, io::OutputFolder* folder) : body_(body), folder_(folder) {
+    if (folder_ != nullptr) states_.emplace(folder_->assembly("states.h5"), body);
   }
 
   void add(const Snapshot<Dim>& snapshot) {
@@ -107,6 +140,8 @@ class RunFiles {
                                        io::vector_field<Dim>("velocity", snapshot.state.velocity),
                                        io::tensor_field<Dim>("stress", snapshot.stress),
                                        io::scalar_field("von_mises_stress", snapshot.von_mises_stress)});
+    if (body_.size() <= largest_picture)
+      folder_->write(fmt::format("snapshot_{:03}.svg", pictures_++), io::render_svg(picture(snapshot)));
   }
 
   void finish(const SceneRunResult<Dim>& result, const Json& answer) {
@@ -117,6 +152,16 @@ class RunFiles {
   }
 
  private:
+  io::ParticleFigure picture(const Snapshot<Dim>& snapshot) const {
+    return {.title = fmt::format("time {:.6g}, step {}", snapshot.time, snapshot.step),
+            .x_label = "x",
+            .y_label = Dim == 1 ? "" : "y",
+            .value_label = "von Mises stress",
+            .radius = particle_radius(body_),
+            .panels = {particle_panel<Dim>("", body_, snapshot.state.displacement, 1.0, snapshot.von_mises_stress)},
+            .columns = 1};
+  }
+
   static io::Table probe_table(const SceneRunResult<Dim>& result) {
     io::Table table{{"time"}, {}};
     for (const auto& probe : result.probes)
@@ -132,8 +177,10 @@ class RunFiles {
     return table;
   }
 
+  const Body<Dim>& body_;
   io::OutputFolder* folder_;
   std::optional<io::ParticleFile> states_;
+  int pictures_ = 0;
 };
 
 template <int Dim>
@@ -142,7 +189,7 @@ Json run_answer(const Case& input, const Request& request) {
   const double duration = input.required_number("duration");
   const double critical = theory_limit<Dim>(scene.problem, scene.body).critical_time_step.value();
   const double time_step = input.number("time_step").value_or(*input.number("step_fraction") * critical);
-  RunFiles<Dim> files(scene, request.folder);
+  RunFiles<Dim> files(scene.body, request.folder);
   SceneRunOptions<Dim> options{.time_step = time_step,
                                .duration = duration,
                                .snapshots = static_cast<long>(*input.number("snapshots")),

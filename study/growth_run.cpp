@@ -2,8 +2,9 @@
 #include "study/growth_run.hpp"
 
 #include <cmath>
-#include <random>
 #include <vector>
+
+#include "model/uniform.hpp"
 
 namespace sphstab::study {
 namespace {
@@ -33,13 +34,13 @@ constexpr double settled = 1e-4;
 /// Strain energies taken in a horizon; each costs half a right-hand side.
 constexpr long samples = 1000;
 
-/// Uniform numbers in [−1, 1) that are the same everywhere (the standard's distributions are not).
+/// Uniform numbers in [−1, 1).
 template <int Dim>
 Field<Dim> noise(int particles, unsigned noise_seed) {
   std::mt19937_64 generator(noise_seed);
   Field<Dim> field(particles);
   for (auto& vector : field)
-    for (int i = 0; i < Dim; ++i) vector[i] = std::ldexp(static_cast<double>(generator() >> 11), -52) - 1.0;
+    for (int i = 0; i < Dim; ++i) vector[i] = uniform_number(generator);
   return field;
 }
 

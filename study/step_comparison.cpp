@@ -26,12 +26,6 @@ Body<Dim> make_body(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) 
   return std::get<Body<Dim>>(choice);
 }
 
-/// The spectrum is compared with runs, which are far less accurate than its residual: the cheapest bound will do.
-template <int Dim>
-analysis::BodyLimit limit_of(const Problem<Dim>& problem, const Body<Dim>& body) {
-  return analysis::body_limit(problem, body, {.bound = analysis::BoundKind::norm_bound});
-}
-
 template <int Dim>
 std::optional<double> step_of(const analysis::StepLimit<Dim>& limit) {
   if (const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit)) return stable->critical_time_step;
@@ -77,7 +71,7 @@ double scan_start(const Problem<Dim>& problem, const std::vector<Material>& mate
 template <int Dim>
 TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
   if (const auto* body = std::get_if<Body<Dim>>(&choice))
-    return {.critical_time_step = limit_of(problem, *body).critical_time_step};
+    return {.critical_time_step = analysis::body_limit(problem, *body).critical_time_step};
   const auto limit = analysis::patch_limit(problem, std::get<PeriodicPatch<Dim>>(choice).cells);
   if (const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit))
     return {.growth_rate = unstable->growth_rate};
@@ -93,7 +87,7 @@ template <int Dim>
 solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
   solver::Field<Dim> displacement;
   if (const auto* body = std::get_if<Body<Dim>>(&choice)) {
-    const Eigen::VectorXd mode = limit_of(problem, *body).displacement;
+    const Eigen::VectorXd mode = analysis::body_limit(problem, *body).displacement;
     for (int a = 0; a < body->size(); ++a) displacement.push_back(mode.template segment<Dim>(Dim * a));
     return displacement;
   }
