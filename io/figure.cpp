@@ -156,26 +156,30 @@ Extent extent_of(const ParticlePanel& panel, double radius) {
   return extent;
 }
 
-/// Where the panels stand on the page, in pixels.
+/// Where the panels stand on the page, in pixels. A row is as high as its highest panel.
 struct Layout {
-  int rows;
   int columns;
-  double height_of_area;
   double title;
+  std::vector<double> heights;  ///< of the areas of each row
 
   explicit Layout(const ParticleFigure& figure)
       : columns(std::min(static_cast<int>(figure.panels.size()), figure.columns)),
-        height_of_area(0.0),
         title(figure.title.empty() ? 0.0 : height_of_title) {
-    rows = (static_cast<int>(figure.panels.size()) + columns - 1) / columns;
-    for (const auto& panel : figure.panels) {
-      const Extent extent = extent_of(panel, figure.radius);
-      height_of_area = std::max(height_of_area, width_of_area * extent.height() / extent.width());
+    for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+      if (i % columns == 0) heights.push_back(0.0);
+      const Extent extent = extent_of(figure.panels[i], figure.radius);
+      const double height = width_of_area * std::min(extent.height() / extent.width(), tallest_area);
+      heights.back() = std::max(heights.back(), height);
     }
-    height_of_area = std::min(height_of_area, tallest_area * width_of_area);
   }
   double width() const { return columns * (left_of_area + width_of_area + right_of_area); }
-  double height() const { return rows * (above_area + height_of_area + below_area) + title; }
+  double height() const { return top(0) + above_area + title; }
+  /// Of the area of a row, above the lower edge of the page.
+  double top(int row) const {
+    double below = 0.0;
+    for (std::size_t i = row; i < heights.size(); ++i) below += above_area + heights[i] + below_area;
+    return below - above_area;
+  }
 };
 
 /// 1, 2 or 5 times a power of ten: the smallest that makes at most so many steps of the length.
@@ -216,10 +220,10 @@ std::string data_of(const ParticlePanel& panel, int i) {
 
 /// The axes of a panel: as large as its area allows, a unit of x being as long as one of y. Returns the pixels a unit.
 double place(const Extent& extent, const Layout& layout, int i, std::string& script) {
-  const double scale = std::min(width_of_area / extent.width(), layout.height_of_area / extent.height());
+  const int row = i / layout.columns;
+  const double scale = std::min(width_of_area / extent.width(), layout.heights[row] / extent.height());
   const double left = (i % layout.columns) * (left_of_area + width_of_area + right_of_area) + left_of_area;
-  const double top = layout.height() - layout.title -
-                     (i / layout.columns) * (above_area + layout.height_of_area + below_area) - above_area;
+  const double top = layout.top(row);
   script += fmt::format(
       "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n"
       "set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n",

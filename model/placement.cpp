@@ -6,10 +6,10 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "model/errors.hpp"
 #include "model/lattice_index.hpp"
+#include "model/uniform.hpp"
 
 namespace sphstab {
 namespace {
@@ -93,10 +93,7 @@ template <int Dim>
 void move(std::vector<Vector<Dim>>& position, const Jitter& jitter, double spacing) {
   std::mt19937_64 random(jitter.seed);
   for (auto& x : position)
-    for (double& component : x) {
-      const double uniform = static_cast<double>(random() >> 11) * 0x1p-53;  // in [0, 1)
-      component += jitter.fraction * spacing * (2.0 * uniform - 1.0);
-    }
+    for (double& component : x) component += jitter.fraction * spacing * uniform_number(random);
 }
 
 }  // namespace

@@ -31,8 +31,7 @@ template <int Dim>
 using Arrangement = std::variant<LatticeArrangement<Dim>, PolarArrangement>;
 
 /// Every component of every position moves by a number drawn from [−fraction, fraction) spacings. The same seed gives
-/// the same positions on every platform: the 53 upper bits of std::mt19937_64, whose numbers the standard fixes,
-/// particle by particle, x first.
+/// the same positions on every platform (model/uniform.hpp): particle by particle, x first.
 struct Jitter {
   double fraction;
   std::uint64_t seed;

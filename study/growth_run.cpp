@@ -2,8 +2,9 @@
 #include "study/growth_run.hpp"
 
 #include <cmath>
-#include <random>
 #include <vector>
+
+#include "model/uniform.hpp"
 
 namespace sphstab::study {
 namespace {
@@ -33,13 +34,13 @@ constexpr double settled = 1e-4;
 /// Strain energies taken in a horizon; each costs half a right-hand side.
 constexpr long samples = 1000;
 
-/// Uniform numbers in [−1, 1) that are the same everywhere (the standard's distributions are not).
+/// Uniform numbers in [−1, 1).
 template <int Dim>
 Field<Dim> noise(int particles, unsigned noise_seed) {
   std::mt19937_64 generator(noise_seed);
   Field<Dim> field(particles);
   for (auto& vector : field)
-    for (int i = 0; i < Dim; ++i) vector[i] = std::ldexp(static_cast<double>(generator() >> 11), -52) - 1.0;
+    for (int i = 0; i < Dim; ++i) vector[i] = uniform_number(generator);
   return field;
 }
 
@@ -78,10 +79,22 @@ GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, un
 
 template <int Dim>
 GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& displacement)
-    : simulation_(problem, without_loads(body)),
+    : GrowthRun(problem, without_loads(body), State<Dim>(body.size()).displacement, displacement) {}
+
+template <int Dim>
+GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& equilibrium,
+                          unsigned noise_seed)
+    : GrowthRun(problem, body, equilibrium, noise<Dim>(body.size(), noise_seed)) {}
+
+template <int Dim>
+GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& equilibrium,
+                          const Field<Dim>& displacement)
+    : simulation_(problem, body),
       energy_scale_(energy_of_unit_strain(problem, body)),
       largest_e_foldings_(problem.scheme.momentum_density == MomentumDensity::frozen ? linear_e_foldings
                                                                                      : nonlinear_e_foldings),
+      equilibrium_(equilibrium),
+      departure_(body.size()),
       seed_(body.size()) {
   seed_.displacement = displacement;
   simulation_.hold(seed_);
@@ -93,23 +106,30 @@ GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, co
 }
 
 template <int Dim>
-double GrowthRun<Dim>::amplitude(const State<Dim>& state) const {
-  return std::sqrt(simulation_.strain_energy(state) / energy_scale_);
+const State<Dim>& GrowthRun<Dim>::departure(const State<Dim>& state) {
+  departure_ = state;
+  add_scaled<Dim>(departure_.displacement, -1.0, equilibrium_);
+  return departure_;
 }
 
 template <int Dim>
-void GrowthRun<Dim>::scale_to_seed(State<Dim>& state) const {
-  const double factor = seed_strain / amplitude(state);
-  for (auto& s : state.displacement) s *= factor;
-  for (auto& v : state.velocity) v *= factor;
+double GrowthRun<Dim>::amplitude(const State<Dim>& departure) const {
+  return std::sqrt(simulation_.strain_energy(departure) / energy_scale_);
 }
 
 template <int Dim>
-State<Dim> GrowthRun<Dim>::start() const {
+void GrowthRun<Dim>::scale_to_seed(State<Dim>& departure) const {
+  const double factor = seed_strain / amplitude(departure);
+  for (auto& s : departure.displacement) s *= factor;
+  for (auto& v : departure.velocity) v *= factor;
+}
+
+template <int Dim>
+State<Dim> GrowthRun<Dim>::first_departure() const {
   if (!fastest_mode_) return seed_;
-  State<Dim> state = *fastest_mode_;
-  add_scaled<Dim>(state.displacement, noise_beside_mode, seed_.displacement);
-  return state;
+  State<Dim> first = *fastest_mode_;
+  add_scaled<Dim>(first.displacement, noise_beside_mode, seed_.displacement);
+  return first;
 }
 
 template <int Dim>
@@ -117,7 +137,7 @@ bool GrowthRun<Dim>::run(long end, double time_step, int stride, State<Dim>& sta
                          std::vector<double>& log_amplitude) {
   while (stride * static_cast<long>(log_amplitude.size() - 1) < end) {
     simulation_.advance(state, time_step, stride);
-    const double next = std::log(amplitude(state));
+    const double next = std::log(amplitude(departure(state)));
     if (!std::isfinite(next)) return false;
     log_amplitude.push_back(next);
     if (next - log_amplitude.front() > largest_e_foldings_ && std::ssize(log_amplitude) > solver::fewest_amplitudes)
@@ -129,8 +149,9 @@ bool GrowthRun<Dim>::run(long end, double time_step, int stride, State<Dim>& sta
 template <int Dim>
 GrowthFit GrowthRun<Dim>::operator()(double time_step, long horizon) {
   const int stride = static_cast<int>(std::max(1L, horizon / samples));
-  State<Dim> state = start();
+  State<Dim> state = first_departure();
   std::vector<double> log_amplitude{std::log(amplitude(state))};
+  add_scaled<Dim>(state.displacement, 1.0, equilibrium_);
   GrowthFit fit{};
   for (long end = std::max(1L, horizon / first_look); end <= longest_run * horizon; end *= 2) {
     const bool goes_on = run(end, time_step, stride, state, log_amplitude);
@@ -141,8 +162,8 @@ GrowthFit GrowthRun<Dim>::operator()(double time_step, long horizon) {
     if (end >= horizon && fit.trend != Trend::undecided) break;
   }
   if (fit.trend == Trend::growing) {
-    scale_to_seed(state);
-    fastest_mode_ = std::move(state);
+    fastest_mode_ = departure(state);
+    scale_to_seed(*fastest_mode_);
   }
   return fit;
 }

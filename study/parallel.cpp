@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <mutex>
 #include <thread>
-#include <vector>
 
 namespace sphstab::study {
 
@@ -28,6 +28,16 @@ void parallel_for(int count, const std::function<void(int)>& work, int threads) 
   for (auto& thread : workers) thread.join();
   for (const auto& error : errors)
     if (error) std::rethrow_exception(error);
+}
+
+void run_all(const std::vector<std::function<void()>>& work, const std::function<void(double fraction)>& progress) {
+  std::size_t finished = 0;
+  std::mutex reporting;
+  parallel_for(static_cast<int>(work.size()), [&](int i) {
+    work[i]();
+    const std::lock_guard lock(reporting);
+    if (progress) progress(static_cast<double>(++finished) / static_cast<double>(work.size()));
+  });
 }
 
 }  // namespace sphstab::study

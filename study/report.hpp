@@ -30,6 +30,12 @@ const ReportMaker& find_report(std::string_view name);
 /// without kernel normalisation, against H/Δ.
 Report zhang_plate_report(const Progress& progress);
 
+/// Validation Case 1 of Zhang et al. and the stability tests on its plate, Figs. 4-7 and 12-18.
+Report zhang_case_1_report(const Progress& progress);
+
+/// Validation Case 2 of Zhang et al., Figs. 9-11.
+Report zhang_case_2_report(const Progress& progress);
+
 /// The bands of every named lattice along its standard path, and of a compressed base state that grows.
 Report band_report(const Progress& progress);
 
@@ -39,5 +45,13 @@ Report stability_tables_report(const Progress& progress);
 
 /// Cases that are easy to get wrong (study/hard_cases.hpp): expected value, theory and run of each.
 Report hard_cases_report(const Progress& progress);
+
+/// The critical step of whole bodies by their spectrum and by running them; what disorder, edges, normalisation and
+/// clamps do to the step of the infinite lattice.
+Report body_report(const Progress& progress);
+
+/// Natural frequencies of beams against Timoshenko's theory with observed order, and those of Table 2 of Zhang et al.
+/// against finite elements.
+Report natural_frequency_report(const Progress& progress);
 
 }  // namespace sphstab::study

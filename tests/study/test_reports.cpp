@@ -33,3 +33,11 @@ TEST_CASE("the committed stability tables come out again bit for bit", "[ladder]
 TEST_CASE("the committed bands come out again bit for bit", "[ladder]") { check_comes_out_again("bands"); }
 
 TEST_CASE("the committed hard cases come out again bit for bit", "[ladder]") { check_comes_out_again("hard-cases"); }
+
+TEST_CASE("the committed Case 1 of Zhang comes out again bit for bit", "[ladder]") {
+  check_comes_out_again("zhang-case-1");
+}
+
+TEST_CASE("the committed Case 2 of Zhang comes out again bit for bit", "[ladder]") {
+  check_comes_out_again("zhang-case-2");
+}
