@@ -151,6 +151,27 @@ TEST_CASE("a run beyond the critical step ends with status 3 and says what grew"
   CHECK(run(on_scene("run", folder, {"--step-fraction", "0.99", "--duration", "1000"})).status == 0);
 }
 
+TEST_CASE("a run that grows without reaching infinity ends with status 3 too", "[fast]") {
+  const SceneFolder folder(std::string(falling_plate) + "\n[[clamp]]\nregion.box = { from = [0, 0], to = [1, 4] }\n");
+  const auto outcome =
+      run(on_scene("run", folder, {"--step-fraction", "1.01", "--duration", "600", "--format", "json"}));
+  CHECK(outcome.status == 3);
+  CHECK(outcome.json()["unstable"] == true);
+  CHECK_FALSE(outcome.json().contains("failure"));
+}
+
+TEST_CASE("only a body of one material on one lattice is compared with the bulk", "[fast]") {
+  const auto spectrum_of = [](const std::string& of_the_body) {
+    const std::string steel = "\n[[material]]\nname = \"steel\"\nyoung_modulus = 2.0\npoisson_ratio = 0.3\n";
+    const SceneFolder folder(falling_plate + steel + "\n[[body]]\n" + of_the_body);
+    return result_of(on_scene("spectrum", folder, {"--format", "json"})).json();
+  };
+  const std::string beside = "shape.box = { from = [6.0, 0.0], to = [9.0, 4.0] }\n";
+  CHECK(spectrum_of(beside).contains("bulk_theory"));
+  CHECK_FALSE(spectrum_of(beside + "material = \"steel\"\n").contains("bulk_theory"));
+  CHECK_FALSE(spectrum_of(beside + "jitter = 0.1\n").contains("bulk_theory"));
+}
+
 TEST_CASE("a run that is cut short keeps the last state that has numbers", "[fast]") {
   const SceneFolder folder(std::string(falling_plate) + "\n[[clamp]]\nregion.box = { from = [0, 0], to = [1, 4] }\n");
   const Json answer = run(on_scene("run", folder,
