@@ -28,7 +28,8 @@ struct SceneRunOptions {
   double duration;     ///< the run ends with the first step at or after it
   long snapshots = 0;  ///< equal intervals (no more than steps), with a snapshot at either end, the last finite state
                        ///< included; 0: none
-  std::optional<long> probe_samples = std::nullopt;  ///< at most, of every second, third … step, and the last; absent: every step
+  std::optional<long> probe_samples =
+      std::nullopt;  ///< at most, of every second, third … step, and the last; absent: every step
   std::function<void(long step, long steps)> progress = nullptr;
   std::function<void(const Snapshot<Dim>&)> visit = nullptr;
 };
