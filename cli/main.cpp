@@ -9,6 +9,7 @@
 
 #include "cli/case_options.hpp"
 #include "cli/command.hpp"
+#include "cli/interruption.hpp"
 #include "cli/report.hpp"
 #include "cli/table.hpp"
 #include "io/document.hpp"
@@ -72,11 +73,17 @@ int run_case_command(const CaseCommand& command, const Case& input, const Output
   output.check(command);
   if (output.figure) io::write_file(*output.figure, io::render_svg(command.figure(input)), output.existing());
   std::optional<io::OutputFolder> folder;
-  if (output.folder) folder.emplace(*output.folder, output.existing());
+  if (output.folder) {
+    folder.emplace(*output.folder, output.existing());
+    note_signals();  // an interrupted command takes its unfinished folder away
+  }
   Json answer = [&] {
     io::Progress bar{std::string(command.name)};
-    return command.answer(
-        input, {.progress = [&](double fraction) { bar.show(fraction); }, .folder = folder ? &*folder : nullptr});
+    const auto progress = [&](double fraction) {
+      if (signal_received() != 0) throw Interruption{signal_received()};
+      bar.show(fraction);
+    };
+    return command.answer(input, {.progress = progress, .folder = folder ? &*folder : nullptr});
   }();
   if (folder) folder->commit();
   if (output.explain) answer["explanation"] = command.explain(input);
@@ -254,6 +261,9 @@ int main(int argc, char** argv) {
   } catch (const InvalidInput& error) {
     std::cerr << "sphstab: " << error.what() << "\n";
     return cli::ExitStatus::bad_input;
+  } catch (const cli::Interruption& interruption) {
+    std::cerr << "sphstab: interrupted, nothing was written\n";
+    return cli::exit_status_of(interruption.signal);
   } catch (const std::exception& error) {
     std::cerr << "sphstab: internal fault: " << error.what() << "\n";
     return cli::ExitStatus::internal_fault;

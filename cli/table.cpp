@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <iostream>
 #include <utility>
 
+#include "cli/interruption.hpp"
 #include "io/case_input.hpp"
 #include "io/files.hpp"
 #include "io/json.hpp"
@@ -21,19 +20,6 @@ namespace sphstab::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::atomic<int> signal_received = 0;
-/// What shells add to the number of the signal that ended a program.
-constexpr int signal_base = 128;
-static_assert(std::atomic<int>::is_always_lock_free);
-
-/// From now on the first Ctrl-C or request to end is only noted; a second one ends the program at once.
-void note_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int signal) { signal_received = signal; };
-  action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
-  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
-}
 
 std::vector<std::string> columns_of(const std::string& text) {
   const auto names = split(text, ',');
@@ -150,11 +136,11 @@ int write_table(const study::Sweep& sweep, const study::Question& question, std:
       run_with_bar(sweep, question,
                    {.taken_over = rows_of(journal),
                     .finished = [&](const Json& row) { journal.append(io::to_json_line(row)); },
-                    .stop = [] { return signal_received != 0; }});
+                    .stop = [] { return signal_received() != 0; }});
   if (!done.complete()) {
     std::cerr << fmt::format("sphstab: interrupted: {} of {} rows are done; the same command goes on from there\n",
                              done.answered + done.taken_over, done.rows.size());
-    return signal_base + signal_received;
+    return exit_status_of(signal_received());
   }
   io::write_file(*options.output, text_of(rows_or_no_journal(sweep, question, done, journal), format), existing);
   journal.remove();

@@ -185,6 +185,10 @@ void OutputFolder::commit() {
       if (fs::exists(target) && fs::is_directory(target) != entry.is_directory())
         fail(target, entry.is_directory() ? "is no folder" : "is a folder");
     }
+    if (!series_.empty())
+      for (const auto& entry :
+           std::vector<fs::directory_entry>(fs::directory_iterator(path_), fs::directory_iterator()))
+        if (entry.is_regular_file() && entry.path().filename().string().starts_with(series_)) fs::remove(entry.path());
     for (const auto& entry : fs::recursive_directory_iterator(assembly_)) {
       const fs::path target = path_ / entry.path().lexically_relative(assembly_);
       if (entry.is_directory())

@@ -62,12 +62,17 @@ class OutputFolder {
   /// Where a library may write such a file for itself, before commit(). Throws like write().
   std::filesystem::path assembly(const std::filesystem::path& name);
 
+  /// Files of the folder whose names begin so and that are not written again go at commit(): the rest of a longer
+  /// series.
+  void replace_series(const std::string& beginning) { series_ = beginning; }
+
   /// Throws InvalidInput, before anything is moved, where a folder stands in the place of a file or the reverse.
   void commit();
 
  private:
   std::filesystem::path path_;
   std::filesystem::path assembly_;
+  std::string series_;
 };
 
 class Descriptor;

@@ -131,7 +131,9 @@ template <int Dim>
 class RunFiles {
  public:
   RunFiles(const Body<Dim>& body, io::OutputFolder* folder) : body_(body), folder_(folder) {
-    if (folder_ != nullptr) states_.emplace(folder_->assembly("states.h5"), body);
+    if (folder_ == nullptr) return;
+    states_.emplace(folder_->assembly("states.h5"), body);
+    folder_->replace_series("snapshot_");
   }
 
   void add(const Snapshot<Dim>& snapshot) {
@@ -140,8 +142,9 @@ class RunFiles {
                                        io::vector_field<Dim>("velocity", snapshot.state.velocity),
                                        io::tensor_field<Dim>("stress", snapshot.stress),
                                        io::scalar_field("von_mises_stress", snapshot.von_mises_stress)});
-    if (body_.size() <= largest_picture)
-      folder_->write(fmt::format("snapshot_{:03}.svg", pictures_++), io::render_svg(picture(snapshot)));
+    if (body_.size() <= largest_picture && drawable<Dim>(body_, snapshot.state.displacement))
+      folder_->write(fmt::format("snapshot_{:03}.svg", snapshots_), io::render_svg(picture(snapshot)));
+    ++snapshots_;
   }
 
   void finish(const SceneRunResult<Dim>& result, const Json& answer) {
@@ -187,7 +190,7 @@ class RunFiles {
   const Body<Dim>& body_;
   io::OutputFolder* folder_;
   std::optional<io::ParticleFile> states_;
-  int pictures_ = 0;
+  int snapshots_ = 0;
 };
 
 template <int Dim>

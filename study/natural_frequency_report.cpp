@@ -455,8 +455,7 @@ io::ParticleFigure mode_figure(Table2Body which) {
 
 constexpr const char* beam_text = R"(
 A mode is recognised by its shape, deflection and rotation of Euler and Bernoulli, among all modes of the spectrum:
-likeness is the part of its displacement that the shape explains. "Named" is what `spectrum` calls it: slow bending
-modes carry so little energy that a trace of alternating displacement makes them zero-energy modes by that measure.
+likeness is the part of its displacement that the shape explains. "Named" is what `spectrum` calls it.
 
 Two errors are apart. Inside a body SPH makes the frequency of every long wave wrong by L/N, L δ_ij = −Σ V x_i ∂_j W:
 that depends on h/Δp alone and no refinement takes it away. The rest comes from free edges, where the sums lack half

@@ -11,6 +11,9 @@ namespace {
 /// Of the body's size, that the farthest particle of a mode moves.
 constexpr double mode_amplitude = 0.1;
 
+/// Sizes of the body.
+constexpr double farthest_drawn = 100.0;
+
 /// The order in which particles are drawn.
 template <int Dim>
 std::vector<int> drawing_order(const Body<Dim>& body) {
@@ -33,6 +36,13 @@ double size(const Body<Dim>& body) {
 }
 
 }  // namespace
+
+template <int Dim>
+bool drawable(const Body<Dim>& body, const std::vector<Vector<Dim>>& displacement) {
+  const double farthest = farthest_drawn * size(body);
+  return std::all_of(displacement.begin(), displacement.end(),
+                     [&](const Vector<Dim>& s) { return s.norm() <= farthest; });
+}
 
 template <int Dim>
 io::ParticlePanel particle_panel(std::string title, const Body<Dim>& body, const std::vector<Vector<Dim>>& displacement,
@@ -74,16 +84,19 @@ io::ParticleFigure mode_figure(const std::string& title, const Body<Dim>& body,
   return figure;
 }
 
+template bool drawable(const Body<1>&, const std::vector<Vector<1>>&);
 template io::ParticlePanel particle_panel(std::string, const Body<1>&, const std::vector<Vector<1>>&, double,
                                           const std::vector<double>&);
 template double particle_radius(const Body<1>&);
 template io::ParticleFigure mode_figure(const std::string&, const Body<1>&,
                                         const std::vector<std::pair<std::string, std::vector<Vector<1>>>>&);
+template bool drawable(const Body<2>&, const std::vector<Vector<2>>&);
 template io::ParticlePanel particle_panel(std::string, const Body<2>&, const std::vector<Vector<2>>&, double,
                                           const std::vector<double>&);
 template double particle_radius(const Body<2>&);
 template io::ParticleFigure mode_figure(const std::string&, const Body<2>&,
                                         const std::vector<std::pair<std::string, std::vector<Vector<2>>>>&);
+template bool drawable(const Body<3>&, const std::vector<Vector<3>>&);
 template io::ParticlePanel particle_panel(std::string, const Body<3>&, const std::vector<Vector<3>>&, double,
                                           const std::vector<double>&);
 template double particle_radius(const Body<3>&);

@@ -9,6 +9,10 @@ namespace sphstab::study {
 /// Larger bodies get no picture: it would have tens of megabytes.
 inline constexpr int largest_picture = 50000;
 
+/// Whether the displaced body can be drawn: not where it has exploded to a hundred times its size.
+template <int Dim>
+bool drawable(const Body<Dim>& body, const std::vector<Vector<Dim>>& displacement);
+
 /// The particles of a body where they are after `factor` times the displacement, coloured by the values. A body in
 /// space is seen along z from above, the nearest particles in front.
 template <int Dim>
@@ -25,16 +29,19 @@ template <int Dim>
 io::ParticleFigure mode_figure(const std::string& title, const Body<Dim>& body,
                                const std::vector<std::pair<std::string, std::vector<Vector<Dim>>>>& named_modes);
 
+extern template bool drawable(const Body<1>&, const std::vector<Vector<1>>&);
 extern template io::ParticlePanel particle_panel(std::string, const Body<1>&, const std::vector<Vector<1>>&, double,
                                                  const std::vector<double>&);
 extern template double particle_radius(const Body<1>&);
 extern template io::ParticleFigure mode_figure(const std::string&, const Body<1>&,
                                                const std::vector<std::pair<std::string, std::vector<Vector<1>>>>&);
+extern template bool drawable(const Body<2>&, const std::vector<Vector<2>>&);
 extern template io::ParticlePanel particle_panel(std::string, const Body<2>&, const std::vector<Vector<2>>&, double,
                                                  const std::vector<double>&);
 extern template double particle_radius(const Body<2>&);
 extern template io::ParticleFigure mode_figure(const std::string&, const Body<2>&,
                                                const std::vector<std::pair<std::string, std::vector<Vector<2>>>>&);
+extern template bool drawable(const Body<3>&, const std::vector<Vector<3>>&);
 extern template io::ParticlePanel particle_panel(std::string, const Body<3>&, const std::vector<Vector<3>>&, double,
                                                  const std::vector<double>&);
 extern template double particle_radius(const Body<3>&);

@@ -10,6 +10,7 @@
 
 using namespace sphstab;
 using namespace sphstab::analysis;
+using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -196,7 +197,7 @@ TEST_CASE("a free body in balance is displaced without moving, and one that is d
   const Eigen::VectorXd mass = op.root_inverse_mass().cwiseAbs2().cwiseInverse();
   body.load.assign(144, Vector<2>::Zero());
   body.load[5] = Vector<2>(0.0, 1.0 / mass[10]);
-  CHECK_THROWS_AS(static_displacement(problem, body), InvalidInput);
+  CHECK_THROWS_WITH(static_displacement(problem, body), StartsWith("load: it drives particle"));
   body.load[137] = Vector<2>(0.0, -1.0 / mass[274]);
   const Eigen::VectorXd s = static_displacement(problem, body);
   const Eigen::VectorXd momentum = mass.cwiseProduct(s);
@@ -211,7 +212,7 @@ TEST_CASE("a free body in balance is displaced without moving, and one that is d
   const auto four = bodies::problem<2>(KernelFamily::cubic_spline, 0.65, KernelNormalisation::none);
   auto patch = periodic_patch(four, {6, 6});
   for (int a = 0; a < 36; ++a) patch.load.push_back(Vector<2>(a % 2 == 0 ? 1.0 : -1.0, 0.0));
-  CHECK_THROWS_AS(static_displacement(four, patch), InvalidInput);
+  CHECK_THROWS_WITH(static_displacement(four, patch), StartsWith("load: it drives a zero-energy mode"));
 
   auto equation_of_state = problem;
   equation_of_state.scheme.momentum_density = MomentumDensity::equation_of_state;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // `spectrum`, `run` and `bisect` of whole bodies as a user runs them.
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include "cli/program.hpp"
 #include "io/files.hpp"
@@ -40,6 +43,7 @@ class SceneFolder {
 
   std::string scene() const { return scene_.string(); }
   std::filesystem::path output() const { return folder_ / "output"; }
+  std::vector<std::string> names() const { return folder_.names(); }
 
  private:
   ScratchFolder folder_;
@@ -229,6 +233,33 @@ TEST_CASE("a run takes one time step, and as many as can be counted", "[fast]") 
         "step_fraction: cannot be given with time_step");
   CHECK_THAT(complaint_about(on_scene("run", folder, {"--duration", "1e300"})),
              StartsWith("duration: 1e+300 takes more than"));
+}
+
+TEST_CASE("a run over a longer one leaves none of its snapshots, and what else is in the folder", "[fast]") {
+  const SceneFolder folder(falling_plate);
+  const auto run_with = [&](const char* snapshots) {
+    result_of(
+        on_scene("run", folder,
+                 {"--duration", "10", "--snapshots", snapshots, "--output", folder.output().string(), "--overwrite"}));
+  };
+  run_with("4");
+  io::write_file(folder.output() / "notes.txt", "mine");
+  CHECK(std::filesystem::exists(folder.output() / "snapshot_004.svg"));
+  run_with("2");
+  CHECK(std::filesystem::exists(folder.output() / "snapshot_002.svg"));
+  CHECK_FALSE(std::filesystem::exists(folder.output() / "snapshot_003.svg"));
+  CHECK(std::filesystem::exists(folder.output() / "notes.txt"));
+}
+
+TEST_CASE("an interrupted run leaves nothing behind", "[fast]") {
+  const SceneFolder folder(falling_plate);
+  const Process process(on_scene("run", folder, {"--duration", "1e8", "--output", folder.output().string()}));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  process.send(SIGINT);
+  const auto outcome = process.wait();
+  CHECK(outcome.status == 128 + SIGINT);
+  CHECK(outcome.err == "sphstab: interrupted, nothing was written\n");
+  CHECK(folder.names() == std::vector<std::string>{"scene.toml"});
 }
 
 TEST_CASE("what names no body, or two, is refused", "[fast]") {
