@@ -207,7 +207,7 @@ Report zhang_case_2_report(const Progress& progress) {
   report.summary = text_of(rows) + fmt::format("{} of the claims above do not hold.\n", report.failures.size());
   report.files = {{"README.md", "# Case 2 of Zhang, Hu, Cui & Wang\n\n" + report.summary +
                                     "\nRegenerate with `sphstab report zhang-case-2 --overwrite`; the annulus is that "
-                                    "of `scenes/zhang-case-2.toml`, with another H.\n"},
+                                    "of `scenes/zhang-case-2.toml`, with H of one ring.\n"},
                   {"table.csv", io::to_csv(table(rows))},
                   {"figure_09.svg", positions_figure(statics)},
                   {"figure_10.svg", stress_map_figure(statics)},
