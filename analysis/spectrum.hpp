@@ -18,9 +18,24 @@ enum class BoundKind {
   probabilistic   ///< Lanczos from a random start; the probability that it fails is stated
 };
 
+/// What a low mode is: see docs/spectrum.md for what separates them.
+enum class BodyModeKind {
+  vibration,
+  rigid,       ///< a translation or rotation of a body, or of parts of it that do not touch
+  zero_energy  ///< particles move against each other and hardly any strain is felt
+};
+
 }  // namespace sphstab::analysis
 
 namespace sphstab {
+
+template <>
+struct Names<analysis::BodyModeKind> {
+  static constexpr std::array<Named<analysis::BodyModeKind>, 3> table{
+      {{analysis::BodyModeKind::vibration, "vibration"},
+       {analysis::BodyModeKind::rigid, "rigid"},
+       {analysis::BodyModeKind::zero_energy, "zero-energy"}}};
+};
 
 template <>
 struct Names<analysis::BoundKind> {
@@ -63,13 +78,6 @@ struct BodyLimit {
 /// Tested in tests/analysis/test_spectrum.cpp.
 template <int Dim>
 BodyLimit body_limit(const Problem<Dim>& problem, const Body<Dim>& body, const BodyLimitOptions& options = {});
-
-/// What a low mode is: see docs/spectrum.md for what separates them.
-enum class BodyModeKind {
-  vibration,
-  rigid,       ///< a translation or rotation of a body, or of parts of it that do not touch
-  zero_energy  ///< particles move against each other and hardly any strain is felt
-};
 
 struct BodyMode {
   double omega;

@@ -21,18 +21,6 @@ namespace {
 
 constexpr double hertz = 0.5 / std::numbers::pi;  // per angular frequency
 
-constexpr std::string_view kind_name(analysis::BodyModeKind kind) {
-  switch (kind) {
-    case analysis::BodyModeKind::vibration:
-      return "vibration";
-    case analysis::BodyModeKind::rigid:
-      return "rigid";
-    case analysis::BodyModeKind::zero_energy:
-      return "zero-energy";
-  }
-  return "";
-}
-
 template <int Dim>
 std::vector<Vector<Dim>> to_vectors(const Eigen::VectorXd& components) {
   std::vector<Vector<Dim>> vectors;
@@ -89,8 +77,8 @@ Json spectrum_answer(const Case& input, const Request& request) {
     answer["frequencies"] = answer["mode_kinds"] = Json::array();
     for (const auto& mode : modes) {
       answer["frequencies"].push_back(mode.omega * hertz);
-      answer["mode_kinds"].push_back(kind_name(mode.kind));
-      ++found[kind_name(mode.kind)];
+      answer["mode_kinds"].push_back(name_of(mode.kind));
+      ++found[name_of(mode.kind)];
       if (request.folder != nullptr) shapes.emplace_back(mode.omega * hertz, to_vectors<Dim>(mode.displacement));
     }
     if (request.folder != nullptr)

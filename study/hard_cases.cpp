@@ -8,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <numbers>
 
 #include "analysis/critical_step.hpp"
@@ -493,18 +492,17 @@ std::vector<Group> all_groups() {
 
 /// Makes the cases of some groups on all cores.
 std::vector<HardCase> make(const std::vector<Group>& groups, const Progress& progress) {
-  std::vector<std::pair<std::string_view, const MakeCase*>> work;
+  std::vector<std::pair<std::string_view, const MakeCase*>> makers;
   for (const Group& group : groups)
-    for (const MakeCase& make_case : group.cases) work.emplace_back(group.name, &make_case);
-  std::vector<HardCase> cases(work.size());
-  std::size_t finished = 0;
-  std::mutex reporting;
-  parallel_for(static_cast<int>(work.size()), [&](int i) {
-    cases[i] = (*work[i].second)();
-    cases[i].group = work[i].first;
-    const std::lock_guard lock(reporting);
-    if (progress) progress(static_cast<double>(++finished) / static_cast<double>(work.size()));
-  });
+    for (const MakeCase& make_case : group.cases) makers.emplace_back(group.name, &make_case);
+  std::vector<HardCase> cases(makers.size());
+  std::vector<std::function<void()>> work;
+  for (std::size_t i = 0; i < makers.size(); ++i)
+    work.push_back([&, i] {
+      cases[i] = (*makers[i].second)();
+      cases[i].group = makers[i].first;
+    });
+  run_all(work, progress);
   return cases;
 }
 

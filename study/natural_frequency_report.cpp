@@ -21,18 +21,6 @@ constexpr std::string_view name_of_ends(BeamEnds ends) {
   return ends == BeamEnds::free_free ? "free-free" : "clamped-free";
 }
 
-constexpr std::string_view name_of_kind(analysis::BodyModeKind kind) {
-  switch (kind) {
-    case analysis::BodyModeKind::vibration:
-      return "vibration";
-    case analysis::BodyModeKind::rigid:
-      return "rigid";
-    case analysis::BodyModeKind::zero_energy:
-      return "zero-energy";
-  }
-  return "";
-}
-
 /// Of values on three meshes, each half as wide as the one before, v = v∞ + c Δᵖ.
 struct Convergence {
   double order;
@@ -181,7 +169,7 @@ io::Table kernel_table(const std::vector<BeamRun>& runs) {
       row[fmt::format("error_{}", mode)] = percent(run.relative(mode));
       row[fmt::format("slower_{}", mode)] = found.index;
       row[fmt::format("likeness_{}", mode)] = found.likeness;
-      row[fmt::format("kind_{}", mode)] = name_of_kind(found.kind);
+      row[fmt::format("kind_{}", mode)] = name_of(found.kind);
     }
     rows.push_back(std::move(row));
   }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <atomic>
 #include <boost/math/tools/toms748_solve.hpp>
-#include <mutex>
 
 #include "analysis/critical_step.hpp"
 #include "io/document.hpp"
@@ -11,15 +9,12 @@
 #include "study/parallel.hpp"
 #include "study/report.hpp"
 #include "study/step_comparison.hpp"
+#include "study/zhang_cases.hpp"
 
 namespace sphstab::study {
 namespace {
 
-/// Validation Case 1 of Zhang et al.: 20×20 particles, l = h = 5e-4 m, E = 0.39 Pa, ρ = 1000 kg/m³, Gaussian kernel.
-/// The ratio E/G = 1.3 is μ = 0.3; Appendix B is plane stress. H is not given (errata.md Z7), so it is varied.
-constexpr double spacing = 2.5e-5, density = 1000.0, young_modulus = 0.39, poisson_ratio = 0.3;
-constexpr double gaussian_cutoff = 5.0;  // W = 1e-11 W(0): 7 moves no limit by more than 1e-9, at twice the cost
-constexpr int plate_particles = 20, patch_cells = 12;
+constexpr int patch_cells = 12;
 constexpr double tolerance = 1e-6;
 constexpr std::array<double, 13> h_over_spacing{0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.1, 1.2, 1.4};
 /// Points of the curves of Eq. 15 and of the bulk limit.
@@ -42,15 +37,12 @@ plate = [20, 20]
 )";
 
 Problem<2> plate_problem(double ratio, Plane plane, KernelNormalisation normalisation) {
-  Problem<2> problem{.lattice = Lattice<2>(LatticeKind::square, spacing),
-                     .kernel = Kernel<2>(KernelFamily::gaussian, ratio * spacing, gaussian_cutoff),
-                     .material = Material::from_young_modulus(density, young_modulus, poisson_ratio),
-                     .plane = plane};
-  problem.scheme.kernel_normalisation = normalisation;
-  return problem;
+  return zhang::problem(ratio * zhang::particle_spacing, normalisation, plane);
 }
 
-Body<2> plate(const Problem<2>& problem) { return free_plate<2>(problem, {plate_particles, plate_particles}); }
+Body<2> plate(const Problem<2>& problem) {
+  return free_plate<2>(problem, {zhang::particles_a_side, zhang::particles_a_side});
+}
 
 /// The three things that are run, with the column that shows them.
 struct Setting {
@@ -99,22 +91,17 @@ double plate_crossing(Plane plane, KernelNormalisation normalisation) {
   });
 }
 
-std::vector<Row> run_all(const Progress& progress) {
+std::vector<Row> compare_all(const Progress& progress) {
   std::vector<Row> rows(h_over_spacing.size());
-  constexpr int count = static_cast<int>(h_over_spacing.size() * settings.size());
-  std::atomic<int> finished{0};
-  std::mutex reporting;
+  std::vector<std::function<void()>> work;
   // Wide kernels cost most: they go first, so that no thread is left with one at the end.
-  parallel_for(count, [&](int task) {
-    const std::size_t i = h_over_spacing.size() - 1 - static_cast<std::size_t>(task) / settings.size();
-    const Setting& setting = settings[static_cast<std::size_t>(task) % settings.size()];
-    const auto problem = plate_problem(h_over_spacing[i], Plane::stress, setting.normalisation);
-    rows[i].runs[static_cast<std::size_t>(task) % settings.size()] =
-        compare_step(problem, setting.body(problem), {.tolerance = tolerance});
-    const double fraction = static_cast<double>(++finished) / count;
-    const std::lock_guard lock(reporting);
-    if (progress) progress(fraction);
-  });
+  for (std::size_t i = rows.size(); i-- > 0;)
+    for (std::size_t run = 0; run < settings.size(); ++run)
+      work.push_back([&rows, i, run] {
+        const auto problem = plate_problem(h_over_spacing[i], Plane::stress, settings[run].normalisation);
+        rows[i].runs[run] = compare_step(problem, settings[run].body(problem), {.tolerance = tolerance});
+      });
+  run_all(work, progress);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].ratio = h_over_spacing[i];
     rows[i].published = published(rows[i].ratio, Plane::stress);
@@ -221,7 +208,7 @@ std::vector<std::string> find_failures(const std::vector<Row>& rows) {
 }  // namespace
 
 Report zhang_plate_report(const Progress& progress) {
-  const auto rows = run_all(progress);
+  const auto rows = compare_all(progress);
   const double bulk_stress = bulk_crossing(Plane::stress);
   std::array<double, 2> plate_crossings{};
   parallel_for(2, [&](int i) { plate_crossings[i] = plate_crossing(Plane::stress, settings[i + 1].normalisation); });
@@ -230,7 +217,7 @@ Report zhang_plate_report(const Progress& progress) {
       "Critical time step by Eq. 15, by the exact bulk theory, and by bisection on the running solver: a periodic "
       "patch\n"
       "of {1}×{1} particles and the free plate, without and with kernel normalisation, each beside its own theory.\n\n",
-      plate_particles, patch_cells);
+      zhang::particles_a_side, patch_cells);
   text += io::to_markdown(short_table(rows));
   text += fmt::format(
       "\nEq. 15 is conservative where only the four nearest neighbours matter and unsafe for wider kernels:\n\n"
