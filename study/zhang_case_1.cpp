@@ -604,7 +604,7 @@ Explosion explode(const Statics& statics, int i) {
 std::string explosion_figure(const Statics& statics, const Explosion& explosion, int i) {
   auto figure = particle_figure(fmt::format("Fig. 18: Δt = 4 ms, {}", names[i]));
   for (std::size_t n = 0; n < drawn_steps.size(); ++n)
-    figure.panels.push_back({.title = fmt::format("after {} steps", drawn_steps[n]),
+    figure.panels.push_back({.title = fmt::format("after step {}", drawn_steps[n]),
                              .positions = displaced(statics.body(), explosion.displacement[n])});
   return io::render_svg(figure);
 }
