@@ -25,6 +25,7 @@ BodyOperator<Dim>::BodyOperator(const Problem<Dim>& problem, const Body<Dim>& bo
       root_inverse_mass_(Eigen::VectorXd::Zero(body.size() * Dim)),
       displacement_(body.size()),
       stress_(body.size()) {
+  require_total_lagrangian(problem.scheme, "the spectrum of a body");
   if (problem.scheme.momentum_density == MomentumDensity::equation_of_state &&
       !problem.displacement_gradient.isZero(0.0))
     throw InvalidInput(

@@ -43,8 +43,16 @@ struct NeverStable {
   CriticalMode<Dim> mode;
 };
 
+/// Does not grow in continuous time, yet at every Δt, as Gray's predictor-corrector does (theory.md §4).
 template <int Dim>
-using StepLimit = std::variant<ConditionallyStable<Dim>, UnconditionallyStable, NeverStable<Dim>>;
+struct WeaklyUnstable {
+  double coefficient;  ///< growth per step, max |λ| − 1 → coefficient · Δt^exponent for small Δt
+  int exponent;
+  CriticalMode<Dim> mode;  ///< that grows fastest at small Δt
+};
+
+template <int Dim>
+using StepLimit = std::variant<ConditionallyStable<Dim>, UnconditionallyStable, NeverStable<Dim>, WeaklyUnstable<Dim>>;
 
 /// An extreme ω² over a set of modes, within [lower, upper].
 template <int Dim>

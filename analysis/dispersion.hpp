@@ -2,12 +2,15 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <optional>
+#include <variant>
 
 #include "analysis/acoustic_form.hpp"
 #include "analysis/branch.hpp"
 #include "analysis/critical_step.hpp"
 #include "analysis/gradient_symbol.hpp"
+#include "analysis/updated_lagrangian.hpp"
 
 namespace sphstab::analysis {
 
@@ -16,17 +19,43 @@ namespace sphstab::analysis {
 template <int Dim>
 struct WaveBranch {
   Branch branch;
-  double omega_squared;                       ///< eigenvalue of M(k), always real in `tl-linear`; 1 / time²
+  std::complex<double> omega_squared;         ///< eigenvalue of M(k), always real in `tl-linear`; 1 / time²
   double growth_rate;                         ///< of e^{rt}, r² + c r + ω² = 0, c the damping rate; 1 / time
-  std::optional<double> phase_speed;          ///< ω/|k|; k as given, not its equivalent in the first zone
-  std::optional<Vector<Dim>> group_velocity;  ///< ∂ω/∂k
+  std::optional<double> phase_speed;          ///< Re ω/|k|; k as given, not its equivalent in the first zone
+  std::optional<Vector<Dim>> group_velocity;  ///< Re ∂ω/∂k; absent too where two branches meet
 };
 
-/// The dispersion relation of a problem (theory.md §2): with D the gradient symbol at k,
+/// The waves of `tl-linear` (theory.md §2): with D the gradient symbol at k,
 ///   ω_L² = D · Q D, Q the longitudinal form of AcousticForm, and ω_T² = shear |D|² (twice in 3-D),
 ///   ∂ω/∂k = (∂D/∂k) Q D / ω, Q = shear I for the transverse branch; ∂D/∂k and Q are symmetric.
 /// ω is exactly zero where D vanishes to rounding: at Γ and at zero-energy modes.
-/// Tested in tests/analysis/test_dispersion.cpp.
+template <int Dim>
+class LinearWaves {
+ public:
+  explicit LinearWaves(const Problem<Dim>& problem);
+  std::array<WaveBranch<Dim>, Dim> operator()(const Vector<Dim>& wave_vector) const;
+
+ private:
+  GradientSymbol<Dim> symbol_;
+  AcousticForm<Dim> form_;
+  ModeSteps steps_;
+};
+
+/// The waves of `ul` without viscosity (theory.md §3): ω² the eigenvalues of M(k), and from its right and left
+/// eigenvectors x, y the group velocity ∂ω/∂k_j = y·(∂M/∂k_j) x / (2ω y·x). A real branch is longitudinal where x is
+/// nearer to k than to its normal; complex pairs are `coupled`.
+template <int Dim>
+class UpdatedWaves {
+ public:
+  /// Throws InvalidInput (`viscosity_alpha`) if there is viscosity.
+  explicit UpdatedWaves(const Problem<Dim>& problem);
+  std::array<WaveBranch<Dim>, Dim> operator()(const Vector<Dim>& wave_vector) const;
+
+ private:
+  UpdatedLagrangian<Dim> scheme_;
+};
+
+/// The dispersion relation of a problem. Tested in tests/analysis/test_dispersion.cpp.
 template <int Dim>
 class DispersionRelation {
  public:
@@ -36,9 +65,7 @@ class DispersionRelation {
   std::array<WaveBranch<Dim>, Dim> operator()(const Vector<Dim>& wave_vector) const;
 
  private:
-  GradientSymbol<Dim> symbol_;
-  AcousticForm<Dim> form_;
-  ModeSteps steps_;
+  std::variant<LinearWaves<Dim>, UpdatedWaves<Dim>> waves_;
 };
 
 extern template class DispersionRelation<1>;

@@ -72,6 +72,9 @@ ModeStep::ModeStep(Integrator integrator, const std::optional<Damping>& damping,
       p_[2] = -0.25 * c * c;
       tau_[3] = -0.25 * c * omega_squared;
       break;
+    case Integrator::predictor_corrector:
+    case Integrator::predictor_corrector_pec:
+      throw for_updated_lagrangian_only(integrator);
   }
 }
 

@@ -32,7 +32,8 @@ std::string describe(const Json& answer) {
 CaseCommand bisect_command() {
   return {"bisect",
           "the critical time step found by running the solver (or --command), beside theory",
-          {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::body, KeyGroup::search},
+          {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress, KeyGroup::body,
+           KeyGroup::search},
           study::bisection_answer,
           describe,
           status};

@@ -25,6 +25,7 @@ std::string_view group_title(KeyGroup group) {
     case KeyGroup::material:
       return "Material";
     case KeyGroup::scheme:
+    case KeyGroup::artificial_stress:
       return "Scheme and base state";
     case KeyGroup::mode:
       return "Mode";
@@ -42,7 +43,6 @@ std::string_view group_title(KeyGroup group) {
     case KeyGroup::run:
       return "Run";
     case KeyGroup::distance:
-    case KeyGroup::lattice_sums:
       return "Query";
   }
   return "";

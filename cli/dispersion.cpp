@@ -87,7 +87,8 @@ std::string describe(const Json& answer) {
 CaseCommand dispersion_command() {
   return {.name = "dispersion",
           .summary = "frequency, speeds and growth of waves along a path, on a grid or at one wave vector",
-          .groups = {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::path},
+          .groups = {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress,
+                     KeyGroup::mode, KeyGroup::path},
           .answer = study::dispersion_answer,
           .describe = describe,
           .rows = study::dispersion_rows,

@@ -85,8 +85,8 @@ std::string describe(const Json& answer) {
 CaseCommand dt_command() {
   return {.name = "dt",
           .summary = "the critical time step of a scheme on an infinite lattice",
-          .groups = {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time,
-                     KeyGroup::growth},
+          .groups = {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress,
+                     KeyGroup::mode, KeyGroup::time, KeyGroup::growth},
           .answer = study::time_step_answer,
           .describe = describe,
           .explain = study::explain_time_step,

@@ -235,7 +235,7 @@ std::span<const CaseCommand> case_commands() {
                   nullptr},
       CaseCommand{"sums",
                   "Gray's lattice sums at a wave vector",
-                  {KeyGroup::discretisation, KeyGroup::mode, KeyGroup::lattice_sums},
+                  {KeyGroup::discretisation, KeyGroup::mode, KeyGroup::artificial_stress},
                   study::sums_answer,
                   nullptr}};
   return commands;

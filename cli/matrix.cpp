@@ -35,7 +35,8 @@ std::string describe(const Json& answer) {
 CaseCommand matrix_command() {
   return {"matrix",
           "the amplification matrix at one mode, its eigenvalues and whether its powers stay bounded",
-          {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::time},
+          {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress, KeyGroup::mode,
+           KeyGroup::time},
           study::matrix_answer,
           describe};
 }

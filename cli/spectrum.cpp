@@ -44,13 +44,13 @@ std::string describe(const Json& answer) {
 }  // namespace
 
 CaseCommand spectrum_command() {
-  return {
-      .name = "spectrum",
-      .summary = "the critical time step, modes and natural frequencies of a whole plate or scene",
-      .groups = {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::body, KeyGroup::spectrum},
-      .answer = study::spectrum_answer,
-      .describe = describe,
-      .has_files = true};
+  return {.name = "spectrum",
+          .summary = "the critical time step, modes and natural frequencies of a whole plate or scene",
+          .groups = {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress,
+                     KeyGroup::body, KeyGroup::spectrum},
+          .answer = study::spectrum_answer,
+          .describe = describe,
+          .has_files = true};
 }
 
 }  // namespace sphstab::cli

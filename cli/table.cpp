@@ -163,9 +163,9 @@ void TableOptions::add_to(CLI::App& app) {
   app.add_option("--output", output, "file for the table, with a journal to go on from after an interruption")
       ->type_name("FILE");
   app.add_flag("--overwrite", overwrite, "replace a file that exists, and a journal of another sweep");
-  base.add_to(app, {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::mode, KeyGroup::path,
-                    KeyGroup::time, KeyGroup::growth, KeyGroup::body, KeyGroup::spectrum, KeyGroup::run,
-                    KeyGroup::search, KeyGroup::distance, KeyGroup::lattice_sums});
+  base.add_to(app, {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress,
+                    KeyGroup::mode, KeyGroup::path, KeyGroup::time, KeyGroup::growth, KeyGroup::body,
+                    KeyGroup::spectrum, KeyGroup::run, KeyGroup::search, KeyGroup::distance});
 }
 
 int run_table(const TableOptions& options, const std::string& format) {

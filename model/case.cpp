@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 
 namespace sphstab {
@@ -25,21 +27,100 @@ void require_length(std::string_view key, std::size_t given, std::size_t needed)
   if (given != needed) throw InvalidInput(fmt::format("{}: has {} components, but {} are needed", key, given, needed));
 }
 
+/// The keys that mean something for one formulation only.
+struct SchemeKey {
+  std::string_view name;
+  Formulation formulation;
+};
+using enum Formulation;
+constexpr std::array scheme_keys{SchemeKey{"density_in_momentum", total_lagrangian_linear},
+                                 SchemeKey{"displacement_gradient", total_lagrangian_linear},
+                                 SchemeKey{"kernel_normalisation", total_lagrangian_linear},
+                                 SchemeKey{"damping_rate", total_lagrangian_linear},
+                                 SchemeKey{"plane", total_lagrangian_linear},
+                                 SchemeKey{"deformation_gradient", updated_lagrangian},
+                                 SchemeKey{"sound_speed", updated_lagrangian},
+                                 SchemeKey{"pressure", updated_lagrangian},
+                                 SchemeKey{"deviatoric_stress", updated_lagrangian},
+                                 SchemeKey{"artificial_stress_epsilon", updated_lagrangian},
+                                 SchemeKey{"xsph", updated_lagrangian},
+                                 SchemeKey{"viscosity_alpha", updated_lagrangian}};
+
+/// Whether the key switches nothing on: zeros, or the default.
+bool is_neutral(const Case& input, const Key& key) {
+  if (key.kind == KeyKind::numbers) {
+    const auto values = *input.numbers(key.name);
+    return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0; });
+  }
+  if (key.kind == KeyKind::number) return *input.number(key.name) == 0.0;
+  return *input.word(key.name) == key.default_value;
+}
+
+void refuse_keys_of_other_schemes(const Case& input, Formulation formulation) {
+  for (const auto& [name, of] : scheme_keys)
+    if (of != formulation && input.has(name) && !is_neutral(input, find_key(name)))
+      throw InvalidInput(fmt::format("{}: is for the scheme {}, not {}", name, name_of(of), name_of(formulation)));
+}
+
+std::optional<ArtificialStress> make_artificial_stress(const Case& input) {
+  const double epsilon = input.required_number("artificial_stress_epsilon");
+  if (epsilon == 0.0) return std::nullopt;
+  return ArtificialStress{
+      .epsilon = epsilon,
+      .exponent = input.required_number("artificial_stress_exponent"),
+      .weight = enumerator<ArtificialStressWeight>(input, "artificial_stress_weight"),
+      .linearisation = enumerator<ArtificialStressLinearisation>(input, "artificial_stress_linearisation"),
+      .zero_side = enumerator<ZeroStressSide>(input, "artificial_stress_zero_side")};
+}
+
 Scheme make_scheme(const Case& input) {
   Scheme scheme{.formulation = enumerator<Formulation>(input, "scheme"),
                 .momentum_density = enumerator<MomentumDensity>(input, "density_in_momentum"),
                 .kernel_normalisation = enumerator<KernelNormalisation>(input, "kernel_normalisation"),
-                .damping = std::nullopt};
+                .damping = std::nullopt,
+                .artificial_stress = make_artificial_stress(input),
+                .xsph = std::nullopt,
+                .viscosity = std::nullopt};
+  refuse_keys_of_other_schemes(input, scheme.formulation);
   if (const double rate = input.required_number("damping_rate"); rate > 0.0) scheme.damping = Damping{rate};
+  if (const double epsilon = input.required_number("xsph"); epsilon != 0.0) scheme.xsph = Xsph{epsilon};
+  if (const double alpha = input.required_number("viscosity_alpha"); alpha > 0.0)
+    scheme.viscosity = Viscosity{alpha, input.required_number("viscosity_eta")};
   return scheme;
 }
 
+Integrator make_integrator(const Case& input, Formulation formulation) {
+  const bool updated = formulation == updated_lagrangian;
+  if (!input.has("integrator")) return updated ? Integrator::predictor_corrector : Integrator::leapfrog;
+  const auto integrator = enumerator<Integrator>(input, "integrator");
+  if (!updated && integrator != Integrator::leapfrog && integrator != Integrator::verlet)
+    throw for_updated_lagrangian_only(integrator);
+  return integrator;
+}
+
 template <int Dim>
-Tensor<Dim> make_tensor(const Case& input, std::string_view key) {
+Tensor<Dim> make_tensor(const Case& input, std::string_view key, const Tensor<Dim>& otherwise = Tensor<Dim>::Zero()) {
   const auto rows = input.numbers(key);
-  if (!rows) return Tensor<Dim>::Zero();
+  if (!rows) return otherwise;
   require_length(key, rows->size(), Dim * Dim);
   return Eigen::Map<const Tensor<Dim>>(rows->data()).transpose();
+}
+
+/// S of the base state of `ul`.
+template <int Dim>
+Tensor<Dim> make_deviatoric_stress(const Case& input) {
+  const auto components = input.numbers("deviatoric_stress");
+  if (!components) return Tensor<Dim>::Zero();
+  require_length("deviatoric_stress", components->size(), symmetric_size<Dim>);
+  return symmetric_tensor<Dim, double>(Eigen::Map<const Vector<symmetric_size<Dim>>>(components->data()));
+}
+
+/// Throws InvalidInput unless the base state of `ul` has a density.
+void require_density(const Material& material, double pressure) {
+  const double density = material.density() * (1.0 + pressure / material.bulk_modulus());
+  if (!(density > 0.0))
+    throw InvalidInput(
+        fmt::format("pressure: {} leaves no density: density + pressure / sound_speed^2 is {}", pressure, density));
 }
 
 }  // namespace
@@ -105,8 +186,11 @@ NeighbourRule neighbour_rule(const Case& input) { return enumerator<NeighbourRul
 
 Material make_material(const Case& input) {
   for (const auto one : {"young_modulus", "poisson_ratio"})
-    for (const auto other : {"bulk_modulus", "shear_modulus"}) refuse_both(input, one, other);
+    for (const auto other : {"bulk_modulus", "shear_modulus", "sound_speed"}) refuse_both(input, one, other);
+  refuse_both(input, "bulk_modulus", "sound_speed");
   const double density = input.required_number("density");
+  if (const auto sound_speed = input.number("sound_speed"))
+    return Material::from_sound_speed(density, *sound_speed, input.required_number("shear_modulus"));
   if (input.has("bulk_modulus") || input.has("shear_modulus")) {
     const double bulk_modulus = input.required_number("bulk_modulus");
     return Material::from_bulk_modulus(density, bulk_modulus, input.required_number("shear_modulus"));
@@ -117,17 +201,24 @@ Material make_material(const Case& input) {
 
 template <int Dim>
 Problem<Dim> make_problem(const Case& input) {
-  Problem<Dim> problem{.lattice = make_lattice<Dim>(input),
+  const Scheme scheme = make_scheme(input);
+  Problem<Dim> problem{.lattice = make_lattice<Dim>(input).deformed(
+                           make_tensor<Dim>(input, "deformation_gradient", Tensor<Dim>::Identity())),
                        .kernel = make_kernel<Dim>(input),
                        .neighbour_rule = neighbour_rule(input),
                        .material = make_material(input),
                        .plane = enumerator<Plane>(input, "plane"),
-                       .scheme = make_scheme(input),
-                       .integrator = enumerator<Integrator>(input, "integrator"),
-                       .displacement_gradient = make_tensor<Dim>(input, "displacement_gradient")};
+                       .scheme = scheme,
+                       .integrator = make_integrator(input, scheme.formulation),
+                       .displacement_gradient = make_tensor<Dim>(input, "displacement_gradient"),
+                       .pressure = input.required_number("pressure"),
+                       .deviatoric_stress = make_deviatoric_stress<Dim>(input)};
   if (Dim != 2 && problem.plane != Plane::strain)
     throw InvalidInput(fmt::format("plane: {} is for 2 dimensions, not {}", name_of(problem.plane), Dim));
-  problem.material.lame(problem.plane);  // refuses ν = 0.5 in plane strain
+  if (scheme.formulation == updated_lagrangian)
+    require_density(problem.material, problem.pressure);
+  else
+    problem.material.lame(problem.plane);  // refuses ν = 0.5 in plane strain
   lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule);  // refuses no neighbour
   return problem;
 }

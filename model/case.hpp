@@ -50,8 +50,8 @@ Lattice<Dim> make_lattice(const Case& input);
 
 NeighbourRule neighbour_rule(const Case& input);
 
-/// Density, and Young's modulus with Poisson's ratio or bulk with shear modulus. Throws InvalidInput if one is missing,
-/// both pairs are given, or a value is not allowed.
+/// Density, and Young's modulus with Poisson's ratio, or the shear modulus with the bulk modulus or the bulk sound
+/// speed. Throws InvalidInput if one is missing, two pairs are given, or a value is not allowed.
 Material make_material(const Case& input);
 
 /// The whole problem. Throws InvalidInput naming the key for whatever is missing, contradictory or impossible together.

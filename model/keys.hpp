@@ -28,7 +28,7 @@ enum class KeyGroup {
   spectrum,
   run,
   distance,
-  lattice_sums
+  artificial_stress
 };
 
 /// The interval of the numbers allowed for a key (of every component of a list).

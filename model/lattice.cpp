@@ -106,6 +106,15 @@ Lattice<Dim>::Lattice(LatticeKind kind, const Tensor<Dim>& primitive_in_spacings
 }
 
 template <int Dim>
+Lattice<Dim> Lattice<Dim>::deformed(const Tensor<Dim>& deformation_gradient) const {
+  if (deformation_gradient == Tensor<Dim>::Identity()) return *this;
+  if (!(deformation_gradient.determinant() > 0.0))
+    throw InvalidInput(
+        fmt::format("deformation_gradient: its determinant {} is not above 0", deformation_gradient.determinant()));
+  return Lattice(deformation_gradient * primitive_ / spacing_, spacing_);
+}
+
+template <int Dim>
 std::vector<LatticeNeighbour<Dim>> lattice_neighbours(const Lattice<Dim>& lattice, double support, NeighbourRule rule) {
   const Tensor<Dim> basis = reduced_basis<Dim>(lattice.primitive_vectors());
   // |n_i| = |b_i · x| / 2π ≤ |b_i| support / 2π, the least for a reduced basis.

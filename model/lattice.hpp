@@ -51,6 +51,10 @@ class Lattice {
   /// than 1e-6 of a box of the same lengths.
   Lattice(const Tensor<Dim>& primitive_in_spacings, double spacing);
 
+  /// Its sites moved to F x; the spacing stays what it was. Throws InvalidInput (`deformation_gradient`) unless
+  /// det F > 0.
+  Lattice deformed(const Tensor<Dim>& deformation_gradient) const;
+
   LatticeKind kind() const { return kind_; }
   double spacing() const { return spacing_; }
   /// Columns a_i, lengths.

@@ -30,20 +30,26 @@ class Material {
   /// plane stress only (`lame` refuses it in plane strain).
   static Material from_young_modulus(double density, double young_modulus, double poisson_ratio);
   static Material from_bulk_modulus(double density, double bulk_modulus, double shear_modulus);
+  /// Bulk modulus ρ0 c0² (Gray et al., after Eq. 2.7). A shear modulus of 0 makes a fluid.
+  static Material from_sound_speed(double density, double sound_speed, double shear_modulus);
 
   double density() const { return density_; }
   double shear_modulus() const { return shear_modulus_; }
   double poisson_ratio() const { return poisson_ratio_; }
   double young_modulus() const { return 2.0 * shear_modulus_ * (1.0 + poisson_ratio_); }
-  /// K of three dimensions, E / (3(1−2ν)); infinite for ν = 0.5.
-  double bulk_modulus() const { return young_modulus() / (3.0 * one_minus_two_nu_); }
+  /// K of three dimensions; infinite for ν = 0.5 unless it is a fluid.
+  double bulk_modulus() const { return bulk_modulus_; }
+  /// K + 4G/3.
+  double p_wave_modulus() const { return bulk_modulus_ + 4.0 / 3.0 * shear_modulus_; }
   /// Throws InvalidInput in plane strain if ν is not below 0.5.
   LameConstants lame(Plane plane) const;
 
  private:
-  Material(double density, double shear_modulus, double poisson_ratio, double one_minus_two_nu);
+  static Material from_moduli(double density, double bulk_modulus, double shear_modulus);
+  Material(double density, double bulk_modulus, double shear_modulus, double poisson_ratio, double one_minus_two_nu);
 
   double density_;
+  double bulk_modulus_;
   double shear_modulus_;
   double poisson_ratio_;
   double one_minus_two_nu_;

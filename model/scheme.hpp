@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "model/names.hpp"
 
@@ -9,12 +10,14 @@ namespace sphstab {
 
 /// The SPH discretisation of the solid.
 enum class Formulation {
-  total_lagrangian_linear  ///< Zhang, Hu, Cui & Wang, Eqs. 6-9: small strain, kernel gradients of the reference state
+  total_lagrangian_linear,  ///< Zhang, Hu, Cui & Wang, Eqs. 6-9: small strain, kernel gradients of the reference state
+  updated_lagrangian        ///< Gray, Monaghan & Swift, Eqs. 3.1-3.14: kernel gradients of the present state
 };
 
 template <>
 struct Names<Formulation> {
-  static constexpr std::array<Named<Formulation>, 1> table{{{Formulation::total_lagrangian_linear, "tl-linear"}}};
+  static constexpr std::array<Named<Formulation>, 2> table{
+      {{Formulation::total_lagrangian_linear, "tl-linear"}, {Formulation::updated_lagrangian, "ul"}}};
 };
 
 /// The density in σ/ρ² of Zhang's Eq. 7; Eq. 9 takes m/ρ0 in both cases (errata.md Z9).
@@ -44,12 +47,80 @@ struct Damping {
   double rate;  ///< 1 / time, > 0
 };
 
+/// The weight φ of the artificial stress of a pair.
+enum class ArtificialStressWeight {
+  kernel_ratio,   ///< (W(r)/W(Δp))ⁿ, Gray et al. Eq. 3.13
+  distance_ratio  ///< (r/Δp)ⁿ, as printed by Tran-Duc et al. (errata.md T3)
+};
+
+template <>
+struct Names<ArtificialStressWeight> {
+  static constexpr std::array<Named<ArtificialStressWeight>, 2> table{
+      {{ArtificialStressWeight::kernel_ratio, "kernel-ratio"},
+       {ArtificialStressWeight::distance_ratio, "distance-ratio"}}};
+};
+
+/// What the theory takes the artificial stress R for when the state is perturbed.
+enum class ArtificialStressLinearisation {
+  exact,  ///< R follows the perturbed stress, its principal axes included
+  frozen  ///< R is constant, as in the published analysis
+};
+
+template <>
+struct Names<ArtificialStressLinearisation> {
+  static constexpr std::array<Named<ArtificialStressLinearisation>, 2> table{
+      {{ArtificialStressLinearisation::exact, "exact"}, {ArtificialStressLinearisation::frozen, "frozen"}}};
+};
+
+/// The side from which a principal stress of exactly zero is linearised: R has a kink there.
+enum class ZeroStressSide {
+  compression,  ///< R and δR are zero
+  tension       ///< R is zero, δR that of a stress just above zero
+};
+
+template <>
+struct Names<ZeroStressSide> {
+  static constexpr std::array<Named<ZeroStressSide>, 2> table{
+      {{ZeroStressSide::compression, "compression"}, {ZeroStressSide::tension, "tension"}}};
+};
+
+/// Artificial stress, Gray et al. Eqs. 3.12-3.14, 5.31: (R_a + R_b) φ beside the stresses of a pair, where R has the
+/// principal axes of σ and −ε σ_i/ρ² for each positive principal stress σ_i, zero for the others.
+struct ArtificialStress {
+  double epsilon;         ///< > 0
+  double exponent = 4.0;  ///< n of φ
+  ArtificialStressWeight weight = ArtificialStressWeight::kernel_ratio;
+  ArtificialStressLinearisation linearisation = ArtificialStressLinearisation::exact;
+  ZeroStressSide zero_side = ZeroStressSide::compression;
+};
+
+/// XSPH, Gray et al. Eq. 3.6: particles, densities and stresses move with v̂_a = v_a + ε̃ Σ (m_b/ρ̄_ab)(v_b − v_a) W_ab.
+struct Xsph {
+  double epsilon;  ///< ε̃ ≠ 0
+};
+
+/// Π_ab = α h c0 (v_ab·r_ab) / (ρ̄_ab (r_ab² + (ηh)²)) beside the stresses of a pair, on approach and separation alike.
+struct Viscosity {
+  double alpha;  ///< > 0
+  double eta;    ///< ≥ 0
+};
+
 /// A scheme: its formulation and the terms that are switched on. An absent optional is a term that costs nothing.
 struct Scheme {
   Formulation formulation = Formulation::total_lagrangian_linear;
   MomentumDensity momentum_density = MomentumDensity::frozen;
   KernelNormalisation kernel_normalisation = KernelNormalisation::none;
   std::optional<Damping> damping;
+  std::optional<ArtificialStress> artificial_stress;
+  std::optional<Xsph> xsph;
+  std::optional<Viscosity> viscosity;
 };
+
+/// Throws InvalidInput naming `what` there is for total-Lagrangian schemes alone, unless this is one.
+inline void require_total_lagrangian(const Scheme& scheme, const std::string& what) {
+  if (scheme.formulation == Formulation::updated_lagrangian)
+    throw InvalidInput("scheme: " + what + " is for total-Lagrangian schemes, not " +
+                       std::string(name_of(scheme.formulation)));
+}
 
 }  // namespace sphstab

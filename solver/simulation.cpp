@@ -41,6 +41,7 @@ Simulation<Dim, Scalar>::Simulation(const Problem<Dim>& problem, const Body<Dim>
       neighbour_(body.pairs.neighbour),
       P_(body.size()),
       acceleration_(body.size()) {
+  require_total_lagrangian(problem.scheme, "a run");
   for (const auto& material : body.materials) substances_.push_back({material.lame(plane_), 1.0 / material.density()});
   for (const auto& load : body.load) load_.push_back(load.template cast<Real<Scalar>>());
   for (int a = 0; a < static_cast<int>(body.clamped.size()); ++a)

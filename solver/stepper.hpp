@@ -32,6 +32,9 @@ template <int Dim, class Scalar, class Undamped>
 void advance(Integrator integrator, const Undamped& undamped, const std::optional<Damping>& damping,
              Real<Scalar> time_step, long steps, State<Dim, Scalar>& state, Field<Dim, Scalar>& A) {
   switch (integrator) {
+    case Integrator::predictor_corrector:
+    case Integrator::predictor_corrector_pec:
+      throw for_updated_lagrangian_only(integrator);
     case Integrator::leapfrog:
       for (long n = 0; n < steps; ++n) {
         undamped(state.displacement, A);

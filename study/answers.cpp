@@ -48,6 +48,13 @@ Json to_json(const analysis::StepLimit<Dim>& limit) {
                     {"verdict", "never-stable"},
                     {"growth_rate", unstable.growth_rate},
                     {"critical_mode", to_json<Dim>(unstable.mode)}};
+          },
+          [](const analysis::WeaklyUnstable<Dim>& weak) -> Json {
+            return {{"critical_time_step", nullptr},
+                    {"bracket", nullptr},
+                    {"verdict", "weakly-unstable"},
+                    {"growth_law", {{"coefficient", weak.coefficient}, {"exponent", weak.exponent}}},
+                    {"critical_mode", to_json<Dim>(weak.mode)}};
           }},
       limit);
 }
@@ -200,14 +207,15 @@ Json kernel_answer(const Case& input) {
 
 template <int Dim>
 Json sums_answer(const Case& input) {
-  const auto sums =
-      analysis::lattice_sums(make_lattice<Dim>(input), make_kernel<Dim>(input), neighbour_rule(input),
-                             make_wave_vector<Dim>(input), input.required_number("artificial_stress_exponent"));
+  const ArtificialStress weight{.epsilon = 1.0, .exponent = input.required_number("artificial_stress_exponent")};
+  const analysis::LatticeSummation<Dim> summation(make_lattice<Dim>(input), make_kernel<Dim>(input),
+                                                  neighbour_rule(input), weight, std::nullopt);
+  const auto sums = summation(make_wave_vector<Dim>(input));
   return {{"A", components<Dim>(sums.A)},
           {"B", rows<Dim>(sums.B)},
           {"beta_sum", sums.beta_sum},
           {"f", rows<Dim>(sums.f)},
-          {"neighbours", sums.neighbours}};
+          {"neighbours", summation.neighbours()}};
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ class Heights {
   double of_lattice(analysis::Branch branch, const Vector<Dim>& k) const {
     const auto waves = relation_(k);
     const auto wave = std::find_if(waves.begin(), waves.end(), [=](const auto& w) { return w.branch == branch; });
-    return height(wave->omega_squared, wave->growth_rate) / unit_;
+    return height(wave->omega_squared.real(), wave->growth_rate) / unit_;
   }
   double of_continuum(analysis::Branch branch, const Vector<Dim>& k) const {
     const double omega_squared =

@@ -205,7 +205,8 @@ std::vector<std::string> explain(const Case& input) {
                 fmt::format("omega^2 = -{:.6g}: the base state makes the mode grow by exp({:.6g} t) in continuous time",
                             unstable.mode.omega * unstable.mode.omega, unstable.growth_rate)));
             lines.push_back(line("Limit", "no time step is stable; the base state has to change, not the step"));
-          }},
+          },
+          [&](const analysis::WeaklyUnstable<Dim>& weak) { explain_mode(weak.mode); }},
       modes.limit());
   return lines;
 }

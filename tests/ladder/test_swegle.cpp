@@ -58,10 +58,11 @@ double omega_squared(const Problem<1>& problem, double strain, double D) {
 /// Of a chain whose kernels move with its particles: ω² = c² A² + (2σ/ρ)(A² − B) (theory.md §7), smallest over k.
 double least_omega_squared_of_moving_kernels(const Problem<1>& problem, double strain) {
   const double c_p = p_wave_speed(problem), sigma_over_rho = c_p * c_p * strain;
+  const analysis::LatticeSummation<1> summation(problem.lattice, problem.kernel, problem.neighbour_rule, std::nullopt,
+                                                std::nullopt);
   double least = 0.0;
   for (int i = 1; i <= 400; ++i) {
-    const auto sums = analysis::lattice_sums<1>(problem.lattice, problem.kernel, problem.neighbour_rule,
-                                                Vector<1>(pi * i / 400.0 / problem.lattice.spacing()), 0.0);
+    const auto sums = summation(Vector<1>(pi * i / 400.0 / problem.lattice.spacing()));
     const double A2 = sums.A.squaredNorm();
     least = std::min(least, c_p * c_p * A2 + 2.0 * sigma_over_rho * (A2 - sums.B(0, 0)));
   }

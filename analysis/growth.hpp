@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "analysis/critical_step.hpp"
+#include "model/problem.hpp"
+
+namespace sphstab::analysis {
+
+/// How a base state grows in continuous time, without damping and viscosity, over the whole Brillouin zone.
+template <int Dim>
+struct GrowthRange {
+  double growth_rate;         ///< max |Re √(−ω²)|, 1 / time; 0 where nothing grows beyond rounding
+  CriticalMode<Dim> fastest;  ///< its mode, `omega` being the growth rate; where nothing grows that of the least ω²
+  double omega_squared_min;   ///< of the real parts; at most 0, the value at Γ
+  double omega_squared_max;
+};
+
+template <int Dim>
+GrowthRange<Dim> growth_range(const Problem<Dim>& problem);
+
+/// A closed interval of ε.
+struct EpsilonInterval {
+  double from;
+  double to;
+};
+
+/// The largest ε that `stabilising_epsilon` looks at.
+inline constexpr double largest_epsilon = 2.0;
+
+/// The ε within [0, largest_epsilon] for which nothing grows, all else as in the problem; the set need not be an
+/// interval (theory.md §3). Empty where none does.
+template <int Dim>
+std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem);
+
+extern template GrowthRange<1> growth_range(const Problem<1>&);
+extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<1>&);
+extern template GrowthRange<2> growth_range(const Problem<2>&);
+extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<2>&);
+extern template GrowthRange<3> growth_range(const Problem<3>&);
+extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<3>&);
+
+}  // namespace sphstab::analysis

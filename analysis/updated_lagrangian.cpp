@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/updated_lagrangian.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sphstab::analysis {
+namespace {
+
+/// Roundings that the sums and products behind an entry of M carry, a few a neighbour.
+constexpr double roundings = 32.0 * std::numeric_limits<double>::epsilon();
+/// A principal stress below this part of the stress is a rounding of zero.
+constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
+
+/// Principal axes of σ and what the artificial stress takes of its principal stresses.
+template <int Dim>
+class PrincipalStress {
+ public:
+  PrincipalStress(const Tensor<Dim>& stress, ZeroStressSide zero_side) {
+    const Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver(stress);
+    axes_ = solver.eigenvectors();
+    values_ = solver.eigenvalues();
+    const double noise = few_roundings * stress.cwiseAbs().maxCoeff();
+    values_ = (values_.array().abs() <= noise).select(0.0, values_);
+    const auto is_tensile = [=](double value) {
+      return value > 0.0 || (value == 0.0 && zero_side == ZeroStressSide::tension);
+    };
+    for (int i = 0; i < Dim; ++i) tensile_[i] = is_tensile(values_[i]);
+  }
+
+  /// σ₊.
+  Tensor<Dim> positive_part() const { return axes_ * values_.cwiseMax(0.0).asDiagonal() * axes_.transpose(); }
+
+  /// P₊'[δσ].
+  Tensor<Dim> positive_part_derivative(const Tensor<Dim>& change) const {
+    Tensor<Dim> in_axes = axes_.transpose() * change * axes_;
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j) in_axes(i, j) *= share(i, j);
+    return axes_ * in_axes * axes_.transpose();
+  }
+
+ private:
+  /// (σ_i₊ − σ_j₊)/(σ_i − σ_j).
+  double share(int i, int j) const {
+    if (tensile_[i] == tensile_[j]) return tensile_[i] ? 1.0 : 0.0;
+    const double tension = std::abs(tensile_[i] ? values_[i] : values_[j]);
+    const double compression = std::abs(tensile_[i] ? values_[j] : values_[i]);
+    return tension == 0.0 ? 0.0 : tension / (tension + compression);
+  }
+
+  Tensor<Dim> axes_;
+  Vector<Dim> values_;
+  Directions<Dim> tensile_;
+};
+
+}  // namespace
+
+template <int Dim>
+UpdatedLagrangian<Dim>::UpdatedLagrangian(const Problem<Dim>& problem)
+    : sums_(problem.lattice, problem.kernel, problem.neighbour_rule, problem.scheme.artificial_stress,
+            problem.scheme.viscosity),
+      wave_number_unit_(1.0 / problem.lattice.spacing()),
+      epsilon_(problem.scheme.artificial_stress ? problem.scheme.artificial_stress->epsilon : 0.0),
+      xsph_(problem.scheme.xsph ? problem.scheme.xsph->epsilon : 0.0),
+      shear_modulus_(problem.material.shear_modulus()),
+      stress_(problem.deviatoric_stress - problem.pressure * Tensor<Dim>::Identity()),
+      deviatoric_(problem.deviatoric_stress),
+      artificial_(Tensor<Dim>::Zero()) {
+  const double rho0 = problem.material.density(), square_of_c0 = problem.material.bulk_modulus() / rho0;
+  density_ = rho0 + problem.pressure / square_of_c0;
+  const double rho = density_, rho_squared = rho * rho;
+  friction_ = problem.scheme.viscosity
+                  ? problem.scheme.viscosity->alpha * problem.kernel.smoothing_length() * std::sqrt(square_of_c0)
+                  : 0.0;
+
+  std::array<Tensor<Dim>, rates> stress_change;  // ∂σ/∂q
+  stress_change[0] = -square_of_c0 * Tensor<Dim>::Identity();
+  for (int c = 1; c < rates; ++c)
+    stress_change[c] = symmetric_tensor<Dim, double>(Vector<symmetric_size<Dim>>::Unit(c - 1));
+  for (int c = 0; c < rates; ++c) stress_by_state_[c] = stress_change[c] / rho_squared;
+  stress_by_state_[0] -= 2.0 / (rho * rho_squared) * stress_;
+
+  artificial_by_state_.fill(Tensor<Dim>::Zero());
+  largest_geometric_ = 2.0 / rho * stress_.norm() * sums_.largest_B();
+  stiffness_ = problem.material.p_wave_modulus() / rho * sums_.largest_A();
+  if (!problem.scheme.artificial_stress) return;
+  const PrincipalStress<Dim> principal(stress_, problem.scheme.artificial_stress->zero_side);
+  artificial_ = -epsilon_ / rho_squared * principal.positive_part();
+  largest_geometric_ += 2.0 * rho * artificial_.norm() * sums_.largest_f();
+  if (problem.scheme.artificial_stress->linearisation == ArtificialStressLinearisation::frozen) return;
+  for (int c = 0; c < rates; ++c)
+    artificial_by_state_[c] = -epsilon_ / rho_squared * principal.positive_part_derivative(stress_change[c]);
+  artificial_by_state_[0] -= 2.0 / rho * artificial_;
+}
+
+template <int Dim>
+template <class Scalar>
+UpdatedWave<Dim, Scalar> UpdatedLagrangian<Dim>::wave(const Vector<Dim, Scalar>& wave_vector) const {
+  using Square = Tensor<Dim, Scalar>;
+  const auto sums = sums_(wave_vector);
+  const Vector<Dim, Scalar>& A = sums.A;
+  const double rho = density_, mu = shear_modulus_;
+  UpdatedWave<Dim, Scalar> wave;
+  wave.smoothing = 1.0 - xsph_ * sums.beta_sum;
+  wave.of_position = 2.0 / rho * (stress_ * sums.B) + 2.0 * rho * (artificial_ * sums.f);
+  wave.of_velocity = friction_ * sums.Gamma;
+  for (int c = 0; c < rates; ++c)
+    wave.of_state.col(c) = -rho * (stress_by_state_[c] * A + artificial_by_state_[c] * sums.A_phi);
+
+  for (int axis = 0; axis < Dim; ++axis) {
+    const Vector<Dim, Scalar> v = Vector<Dim, Scalar>::Unit(axis);
+    const Square gradient = A * v.transpose();
+    const Square strain = 0.5 * (gradient + gradient.transpose()), w = 0.5 * (gradient.transpose() - gradient);
+    const Square stress_rate =
+        2.0 * mu * (strain - strain.trace() / 3.0 * Square::Identity()) + w * deviatoric_ - deviatoric_ * w;
+    wave.state_rate(0, axis) = wave.smoothing * rho * A[axis];
+    wave.state_rate.col(axis).template tail<symmetric_size<Dim>>() =
+        -wave.smoothing * symmetric_components<Dim, Scalar>(stress_rate);
+  }
+  wave.rounding = roundings * std::abs(wave.smoothing) * (largest_geometric_ + stiffness_ * A.norm());
+  return wave;
+}
+
+template <int Dim>
+UpdatedWave<Dim> UpdatedLagrangian<Dim>::operator()(const Vector<Dim>& wave_vector) const {
+  return wave(wave_vector);
+}
+
+template <int Dim>
+UpdatedWave<Dim, std::complex<double>> UpdatedLagrangian<Dim>::operator()(
+    const Vector<Dim, std::complex<double>>& wave_vector) const {
+  return wave(wave_vector);
+}
+
+template <int Dim>
+double UpdatedLagrangian<Dim>::tension_modulus_factor() const {
+  return epsilon_ == 0.0 ? 1.0 : 1.0 - epsilon_ * sums_.long_wave_weight();
+}
+
+template <int Dim>
+Vector<Dim, std::complex<double>> squared_frequencies(const Tensor<Dim>& M, double rounding) {
+  using Complex = std::complex<double>;
+  Vector<Dim, Complex> values;
+  if constexpr (Dim == 2) {
+    const double mean = 0.5 * M.trace(), half_difference = 0.5 * (M(0, 0) - M(1, 1)), product = M(0, 1) * M(1, 0);
+    const double discriminant = half_difference * half_difference + product;
+    const double noise = rounding * (std::abs(half_difference) + std::abs(M(0, 1)) + std::abs(M(1, 0)) + rounding);
+    const double root = std::abs(discriminant) <= noise ? 0.0 : std::sqrt(std::abs(discriminant));
+    if (discriminant < 0.0) {
+      values << Complex(mean, -root), Complex(mean, root);
+    } else {
+      // det = λ₁ λ₂ gives the smaller one without cancellation.
+      const double larger = mean + std::copysign(root, mean);
+      const double smaller = larger == 0.0 ? 0.0 : (M(0, 0) * M(1, 1) - product) / larger;
+      values << std::min(larger, smaller), std::max(larger, smaller);
+    }
+  } else if ((M - M.transpose()).cwiseAbs().maxCoeff() <= rounding) {
+    const Tensor<Dim> symmetric = 0.5 * (M + M.transpose());
+    const Vector<Dim> real = symmetric.template selfadjointView<Eigen::Lower>().eigenvalues();
+    values = real.template cast<Complex>();
+  } else {
+    const Vector<Dim, Complex> complex = M.eigenvalues();
+    const double noise = rounding * M.norm();
+    std::transform(complex.begin(), complex.end(), values.begin(),
+                   [=](Complex value) { return value.imag() * value.imag() <= noise ? Complex(value.real()) : value; });
+  }
+  for (Complex& value : values)
+    if (std::abs(value) <= rounding) value = 0.0;
+  std::sort(values.begin(), values.end(), [](const Complex& a, const Complex& b) {
+    return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
+  });
+  return values;
+}
+
+double growth_rate_of(std::complex<double> omega_squared) { return std::abs(std::sqrt(-omega_squared).real()); }
+
+template class UpdatedLagrangian<1>;
+template Vector<1, std::complex<double>> squared_frequencies(const Tensor<1>&, double);
+template class UpdatedLagrangian<2>;
+template Vector<2, std::complex<double>> squared_frequencies(const Tensor<2>&, double);
+template class UpdatedLagrangian<3>;
+template Vector<3, std::complex<double>> squared_frequencies(const Tensor<3>&, double);
+
+}  // namespace sphstab::analysis
