@@ -17,7 +17,6 @@
 #include "analysis/updated_modes.hpp"
 #include "analysis/zone_maximum.hpp"
 #include "analysis/zone_zeros.hpp"
-#include "model/brillouin_zone.hpp"
 #include "model/lattice_index.hpp"
 
 namespace sphstab::analysis {
@@ -28,13 +27,6 @@ constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
 
 /// Where a maximum lies is known to the root of its rounding: components of k below this part of it are zero.
 constexpr double smallest_component = 1e-7;
-
-/// k in the first zone, without components that are rounding.
-template <int Dim>
-Vector<Dim> tidy(const BrillouinZone<Dim>& zone, const Vector<Dim>& wave_vector) {
-  const Vector<Dim> k = zone.in_first_zone(wave_vector);
-  return (k.array().abs() > smallest_component * k.norm()).select(k, 0.0);
-}
 
 /// Every index from 0 to counts − 1 on each axis.
 template <int Dim>
@@ -218,6 +210,12 @@ ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem) {
   return modes;
 }
 
+template <int Dim>
+Vector<Dim> tidy(const BrillouinZone<Dim>& zone, const Vector<Dim>& wave_vector) {
+  const Vector<Dim> k = zone.in_first_zone(wave_vector);
+  return (k.array().abs() > smallest_component * k.norm()).select(k, 0.0);
+}
+
 template class BulkModes<1>;
 template StepLimit<1> bulk_limit(const Problem<1>&);
 template StepLimit<1> mode_limit(const Problem<1>&, const Vector<1>&);
@@ -225,6 +223,7 @@ template StepLimit<1> paper_limit(const Problem<1>&, const LatticeIndex<1>&);
 template StepLimit<1> patch_limit(const Problem<1>&, const LatticeIndex<1>&);
 template std::optional<double> published_bound(const Problem<1>&);
 template ZeroEnergyModes<1> zero_energy_modes(const Problem<1>&);
+template Vector<1> tidy(const BrillouinZone<1>&, const Vector<1>&);
 template class BulkModes<2>;
 template StepLimit<2> bulk_limit(const Problem<2>&);
 template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
@@ -232,6 +231,7 @@ template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
 template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
 template std::optional<double> published_bound(const Problem<2>&);
 template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
+template Vector<2> tidy(const BrillouinZone<2>&, const Vector<2>&);
 template class BulkModes<3>;
 template StepLimit<3> bulk_limit(const Problem<3>&);
 template StepLimit<3> mode_limit(const Problem<3>&, const Vector<3>&);
@@ -239,5 +239,6 @@ template StepLimit<3> paper_limit(const Problem<3>&, const LatticeIndex<3>&);
 template StepLimit<3> patch_limit(const Problem<3>&, const LatticeIndex<3>&);
 template std::optional<double> published_bound(const Problem<3>&);
 template ZeroEnergyModes<3> zero_energy_modes(const Problem<3>&);
+template Vector<3> tidy(const BrillouinZone<3>&, const Vector<3>&);
 
 }  // namespace sphstab::analysis

@@ -17,6 +17,10 @@ struct GrowthRange {
   double omega_squared_max;
 };
 
+/// Of `tl-linear` from the certified range of BulkModes. Of `ul` by a scan of the zone (ZoneScan) whose local extrema
+/// of the largest and the least ω², of the growth rate and of the discriminant of the characteristic polynomial of M
+/// are polished: the last because complex ω² can live in tongues narrower than any grid (theory.md §3). Values are
+/// right to a few 1e-13 where a maximum is smooth. Tested in tests/analysis/test_growth.cpp.
 template <int Dim>
 GrowthRange<Dim> growth_range(const Problem<Dim>& problem);
 
@@ -29,8 +33,12 @@ struct EpsilonInterval {
 /// The largest ε that `stabilising_epsilon` looks at.
 inline constexpr double largest_epsilon = 2.0;
 
-/// The ε within [0, largest_epsilon] for which nothing grows, all else as in the problem; the set need not be an
-/// interval (theory.md §3). Empty where none does.
+/// A growth rate below this, in units of c_p/Δp, does not count as growth in `stabilising_epsilon`.
+inline constexpr double negligible_growth = 1e-6;
+
+/// The ε within [0, largest_epsilon] for which nothing grows, all else as in the problem (ArtificialStress's defaults
+/// where it has none); the set need not be an interval (theory.md §3). Empty where none does. M is linear in ε. Windows
+/// narrower than 0.01 can be missed; edges are right to 1e-8. Tested in tests/analysis/test_growth.cpp.
 template <int Dim>
 std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem);
 

@@ -19,10 +19,11 @@ namespace {
 /// Points of a figure along each axis.
 constexpr int points_across = 201;
 
-/// The case with the artificial stress of another ε. Everything else of it is as the keys say.
-Case with_epsilon(Case input, double epsilon) {
+/// The problem with the artificial stress of another ε, which is as the other keys say even where there is none.
+template <int Dim>
+Problem<Dim> problem_with_epsilon(Case input, double epsilon) {
   input.set("artificial_stress_epsilon", epsilon);
-  return input;
+  return make_problem<Dim>(input);
 }
 
 template <int Dim>
@@ -58,14 +59,15 @@ Json one_sided_states(Problem<Dim> problem) {
 
 /// Which ε stabilise, and the price of the smallest.
 template <int Dim>
-void add_cure(Json& answer, const Case& input, const Problem<Dim>& problem) {
+void add_cure(Json& answer, const Case& input) {
   Json intervals = Json::array();
-  for (const auto& interval : analysis::stabilising_epsilon(problem)) intervals.push_back({interval.from, interval.to});
+  for (const auto& interval : analysis::stabilising_epsilon(problem_with_epsilon<Dim>(input, 1.0)))
+    intervals.push_back({interval.from, interval.to});
   const Json smallest = intervals.empty() ? Json() : intervals[0][0];
   answer["stabilising_epsilon"] = std::move(intervals);
   answer["smallest_stabilising_epsilon"] = smallest;
   answer["smallest_tension_modulus_factor"] =
-      smallest.is_null() ? Json() : Json(tension_modulus_factor(make_problem<Dim>(with_epsilon(input, smallest))));
+      smallest.is_null() ? Json() : Json(tension_modulus_factor(problem_with_epsilon<Dim>(input, smallest)));
 }
 
 template <int Dim>
@@ -78,13 +80,13 @@ Json growth_answer(const Case& input, const Request& request) {
   answer["tension_modulus_factor"] = tension_modulus_factor(problem);
   if (request.wants("growth_rate_without_artificial_stress"))
     answer["growth_rate_without_artificial_stress"] =
-        artificial ? analysis::growth_range(make_problem<Dim>(with_epsilon(input, 0.0))).growth_rate
+        artificial ? analysis::growth_range(problem_with_epsilon<Dim>(input, 0.0)).growth_rate
                    : answer["growth_rate"].get<double>();
   if (request.wants("one_sided") && analysis::has_one_sided_states(problem))
     answer["one_sided"] = one_sided_states(problem);
   if (request.wants("stabilising_epsilon") || request.wants("smallest_stabilising_epsilon") ||
       request.wants("smallest_tension_modulus_factor"))
-    add_cure(answer, input, problem);
+    add_cure<Dim>(answer, input);
   return answer;
 }
 
