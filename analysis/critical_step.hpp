@@ -92,8 +92,8 @@ class ModeSteps {
   std::optional<Damping> damping_;
 };
 
-/// The infinite lattice: its extreme frequencies over the whole Brillouin zone, found once with certified bounds, and
-/// what follows from them for any step.
+/// The infinite lattice of a total-Lagrangian scheme: its extreme frequencies over the whole Brillouin zone, found once
+/// with certified bounds, and what follows from them for any step.
 template <int Dim>
 class BulkModes {
  public:
@@ -121,6 +121,10 @@ class BulkModes {
   FrequencyRange<Dim> range_;
   double symbol_maximum_;
 };
+
+/// The exact critical time step of the infinite lattice, of any scheme: that of BulkModes or UpdatedModes.
+template <int Dim>
+StepLimit<Dim> bulk_limit(const Problem<Dim>& problem);
 
 /// The limit of one mode.
 template <int Dim>
@@ -157,6 +161,7 @@ template <int Dim>
 Vector<Dim> tidy(const BrillouinZone<Dim>& zone, const Vector<Dim>& wave_vector);
 
 extern template class BulkModes<1>;
+extern template StepLimit<1> bulk_limit(const Problem<1>&);
 extern template StepLimit<1> mode_limit(const Problem<1>&, const Vector<1>&);
 extern template StepLimit<1> paper_limit(const Problem<1>&, const LatticeIndex<1>&);
 extern template StepLimit<1> patch_limit(const Problem<1>&, const LatticeIndex<1>&);
@@ -164,6 +169,7 @@ extern template std::optional<double> published_bound(const Problem<1>&);
 extern template ZeroEnergyModes<1> zero_energy_modes(const Problem<1>&);
 extern template Vector<1> tidy(const BrillouinZone<1>&, const Vector<1>&);
 extern template class BulkModes<2>;
+extern template StepLimit<2> bulk_limit(const Problem<2>&);
 extern template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
 extern template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
 extern template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
@@ -171,6 +177,7 @@ extern template std::optional<double> published_bound(const Problem<2>&);
 extern template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
 extern template Vector<2> tidy(const BrillouinZone<2>&, const Vector<2>&);
 extern template class BulkModes<3>;
+extern template StepLimit<3> bulk_limit(const Problem<3>&);
 extern template StepLimit<3> mode_limit(const Problem<3>&, const Vector<3>&);
 extern template StepLimit<3> paper_limit(const Problem<3>&, const LatticeIndex<3>&);
 extern template StepLimit<3> patch_limit(const Problem<3>&, const LatticeIndex<3>&);
