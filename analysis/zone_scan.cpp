@@ -51,7 +51,8 @@ class Stencil {
   double& operator[](const LatticeIndex<Dim>& n) { return values_[place(n)]; }
   double operator[](const LatticeIndex<Dim>& n) const { return values_[place(n)]; }
 
-  /// Where the parabola through the values has its maximum; nothing unless it has one nearby.
+  /// Where the parabola through the values has its maximum, or as far towards it as it is trusted; nothing unless it
+  /// has one.
   std::optional<Vector<Dim>> summit() const {
     using Index = LatticeIndex<Dim>;
     const double centre = (*this)[Index::Zero()];
@@ -70,8 +71,9 @@ class Stencil {
     const Eigen::LLT<Tensor<Dim>> factors(curvature);
     if (factors.info() != Eigen::Success) return std::nullopt;
     const Vector<Dim> move = factors.solve(gradient);
-    if (!(move.cwiseAbs().maxCoeff() <= farthest_move)) return std::nullopt;
-    return move;
+    const double size = move.cwiseAbs().maxCoeff();
+    if (!std::isfinite(size)) return std::nullopt;
+    return size > farthest_move ? Vector<Dim>(move * (farthest_move / size)) : move;
   }
 
  private:
@@ -183,7 +185,8 @@ ZonePoint<Dim> ZoneScan<Dim>::polished(const Function& function, const Vector<Di
     });
     const bool moved = best.value > centre.value + noise;
     const auto summit = stencil.summit();
-    if ((summit && visit(*summit).second) || !moved) step *= shrinkage;
+    const bool at_summit = summit && visit(*summit).second && summit->cwiseAbs().maxCoeff() <= 1.0;
+    if (at_summit || (!moved && best.value <= centre.value + noise)) step *= shrinkage;
   }
   return best;
 }
