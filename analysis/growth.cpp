@@ -10,7 +10,6 @@
 #include "analysis/dispersion.hpp"
 #include "analysis/in_range.hpp"
 #include "analysis/updated_lagrangian.hpp"
-#include "analysis/zone_scan.hpp"
 
 namespace sphstab::analysis {
 namespace {
@@ -140,23 +139,11 @@ template <int Dim>
 GrowthRange<Dim> linear_range(const Problem<Dim>& problem) {
   const auto [lowest, highest] = BulkModes<Dim>(problem).frequencies();
   const double rate = std::sqrt(std::max(-lowest.omega_squared, 0.0));
-  return {rate, {lowest.wave_vector, lowest.branch, rate}, lowest.omega_squared, highest.omega_squared};
-}
-
-template <int Dim>
-GrowthRange<Dim> updated_range(Problem<Dim> problem) {
-  problem.scheme.viscosity.reset();
-  const ZoneScan<Dim> scan(problem);
-  const DynamicsScan<Dim> dynamics(scan, dynamics_of(problem));
-  const double highest = dynamics.maximum(largest).value;
-  const ZonePoint<Dim> lowest = dynamics.maximum(minus_least), fastest = dynamics.fastest();
-  require_in_range(std::isfinite(highest) && std::isfinite(lowest.value));
-
-  const Vector<Dim> k = tidy<Dim>(BrillouinZone<Dim>(problem.lattice), fastest.wave_vector);
-  const auto waves = DispersionRelation<Dim>(problem)(k);
-  const auto& wave = *std::max_element(waves.begin(), waves.end(),
-                                       [](const auto& a, const auto& b) { return a.growth_rate < b.growth_rate; });
-  return {fastest.value, {k, wave.branch, fastest.value}, -std::max(lowest.value, 0.0), std::max(highest, 0.0)};
+  return {rate,
+          {lowest.wave_vector, lowest.branch, rate},
+          lowest.omega_squared,
+          highest.omega_squared,
+          {highest.wave_vector, highest.branch, std::sqrt(highest.omega_squared)}};
 }
 
 /// Whether the problem is stable at any ε. M is sampled at two of them, 0 and 1, and polished at each.
@@ -166,7 +153,8 @@ class EpsilonScan {
   explicit EpsilonScan(const Problem<Dim>& problem)
       : problem_(problem),
         scan_(problem),
-        tolerance_(negligible_growth * p_wave_speed(problem) / problem.lattice.spacing()) {
+        tolerance_(negligible_growth * std::sqrt(problem.material.p_wave_modulus() / problem.material.density()) /
+                   problem.lattice.spacing()) {
     if (!problem_.scheme.artificial_stress) problem_.scheme.artificial_stress = ArtificialStress{1.0};
     for (const auto& k : scan_.points()) without_.push_back(at(0.0)(k));
     for (const auto& k : scan_.points()) with_.push_back(at(1.0)(k));
@@ -204,10 +192,6 @@ class EpsilonScan {
   }
 
  private:
-  static double p_wave_speed(const Problem<Dim>& problem) {
-    return std::sqrt(problem.material.p_wave_modulus() / problem.material.density());
-  }
-
   DynamicsAt<Dim> at(double epsilon) const {
     Problem<Dim> problem = problem_;
     problem.scheme.artificial_stress->epsilon = epsilon;
@@ -232,7 +216,32 @@ GrowthRange<Dim> growth_range(const Problem<Dim>& problem) {
     case Formulation::updated_lagrangian:
       break;
   }
-  return updated_range(problem);
+  return growth_range(problem, ZoneScan<Dim>(problem));
+}
+
+template <int Dim>
+GrowthRange<Dim> growth_range(const Problem<Dim>& problem, const ZoneScan<Dim>& scan) {
+  Problem<Dim> inviscid = problem;
+  inviscid.scheme.viscosity.reset();
+  const DynamicsScan<Dim> dynamics(scan, dynamics_of(inviscid));
+  const ZonePoint<Dim> highest = dynamics.maximum(largest), lowest = dynamics.maximum(minus_least),
+                       fastest = dynamics.fastest();
+  require_in_range(std::isfinite(highest.value) && std::isfinite(lowest.value));
+
+  const BrillouinZone<Dim> zone(problem.lattice);
+  const DispersionRelation<Dim> dispersion(inviscid);
+  using Wave = WaveBranch<Dim>;
+  const auto mode = [&](const Vector<Dim>& wave_vector, double omega, const auto& before) {
+    const Vector<Dim> k = tidy<Dim>(zone, wave_vector);
+    const auto waves = dispersion(k);
+    return CriticalMode<Dim>{k, std::max_element(waves.begin(), waves.end(), before)->branch, omega};
+  };
+  return {fastest.value,
+          mode(fastest.wave_vector, fastest.value,
+               [](const Wave& a, const Wave& b) { return a.growth_rate < b.growth_rate; }),
+          -std::max(lowest.value, 0.0), std::max(highest.value, 0.0),
+          mode(highest.wave_vector, std::sqrt(std::max(highest.value, 0.0)),
+               [](const Wave& a, const Wave& b) { return a.omega_squared.real() < b.omega_squared.real(); })};
 }
 
 template <int Dim>
@@ -256,10 +265,13 @@ std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem) {
 }
 
 template GrowthRange<1> growth_range(const Problem<1>&);
+template GrowthRange<1> growth_range(const Problem<1>&, const ZoneScan<1>&);
 template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<1>&);
 template GrowthRange<2> growth_range(const Problem<2>&);
+template GrowthRange<2> growth_range(const Problem<2>&, const ZoneScan<2>&);
 template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<2>&);
 template GrowthRange<3> growth_range(const Problem<3>&);
+template GrowthRange<3> growth_range(const Problem<3>&, const ZoneScan<3>&);
 template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<3>&);
 
 }  // namespace sphstab::analysis

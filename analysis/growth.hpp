@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/critical_step.hpp"
+#include "analysis/zone_scan.hpp"
 #include "model/problem.hpp"
 
 namespace sphstab::analysis {
@@ -15,6 +16,7 @@ struct GrowthRange {
   CriticalMode<Dim> fastest;  ///< its mode, `omega` being the growth rate; where nothing grows that of the least ω²
   double omega_squared_min;   ///< of the real parts; at most 0, the value at Γ
   double omega_squared_max;
+  CriticalMode<Dim> stiffest;  ///< the mode of omega_squared_max
 };
 
 /// Of `tl-linear` from the certified range of BulkModes. Of `ul` by a scan of the zone (ZoneScan) whose local extrema
@@ -23,6 +25,10 @@ struct GrowthRange {
 /// right to a few 1e-13 where a maximum is smooth. Tested in tests/analysis/test_growth.cpp.
 template <int Dim>
 GrowthRange<Dim> growth_range(const Problem<Dim>& problem);
+
+/// Of `ul` over the modes of a scan.
+template <int Dim>
+GrowthRange<Dim> growth_range(const Problem<Dim>& problem, const ZoneScan<Dim>& scan);
 
 /// A closed interval of ε.
 struct EpsilonInterval {
@@ -43,10 +49,13 @@ template <int Dim>
 std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem);
 
 extern template GrowthRange<1> growth_range(const Problem<1>&);
+extern template GrowthRange<1> growth_range(const Problem<1>&, const ZoneScan<1>&);
 extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<1>&);
 extern template GrowthRange<2> growth_range(const Problem<2>&);
+extern template GrowthRange<2> growth_range(const Problem<2>&, const ZoneScan<2>&);
 extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<2>&);
 extern template GrowthRange<3> growth_range(const Problem<3>&);
+extern template GrowthRange<3> growth_range(const Problem<3>&, const ZoneScan<3>&);
 extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<3>&);
 
 }  // namespace sphstab::analysis

@@ -40,9 +40,9 @@ struct LineFigure {
   bool x_log = false;
   bool y_log = false;
   std::vector<Curve> curves;
-  std::vector<Mark> x_ticks;         ///< in place of numbers, such as Γ, X, M along a path
-  std::vector<Mark> vertical_lines;  ///< labelled at their upper end
-  std::vector<Shade> shades;
+  std::vector<Mark> x_ticks = {};         ///< in place of numbers, such as Γ, X, M along a path
+  std::vector<Mark> vertical_lines = {};  ///< labelled at their upper end
+  std::vector<Shade> shades = {};
 };
 
 /// The figure as an SVG drawn by gnuplot; the same figure always gives the same bytes. Text is printed as it is, not

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rung 1: what the symbol must be without knowing how it is computed: long waves, symmetries, closed forms.
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -10,7 +9,7 @@
 #include "analysis/critical_step.hpp"
 #include "analysis/gradient_symbol.hpp"
 #include "ladder/cases.hpp"
-#include "model/lattice_index.hpp"
+#include "ladder/point_group.hpp"
 
 using namespace sphstab;
 
@@ -23,40 +22,6 @@ constexpr double rounding = 1e-13;
 template <int Dim>
 Vector<Dim> some_direction() {
   return Vector<3>(0.6, -0.9, 0.4).head<Dim>().normalized();
-}
-
-/// The rotations and reflections that map a lattice to itself, R = A N A⁻¹ with integers N, of these bases −1, 0 or 1.
-template <int Dim>
-std::vector<Tensor<Dim>> point_group(const Lattice<Dim>& lattice) {
-  const Tensor<Dim>&A = lattice.primitive_vectors(), A_inverse = A.inverse();
-  std::vector<Tensor<Dim>> group;
-  using Entries = Eigen::Matrix<int, Dim * Dim, 1>;
-  for_each_index<Dim * Dim>(-Entries::Ones(), Entries::Ones(), [&](const Entries& entries) {
-    const Tensor<Dim> N = Eigen::Map<const Tensor<Dim, int>>(entries.data()).template cast<double>();
-    const Tensor<Dim> R = A * N * A_inverse;
-    if ((R * R.transpose() - Tensor<Dim>::Identity()).norm() < 1e-12) group.push_back(R);
-  });
-  return group;
-}
-
-std::size_t order_of_point_group(LatticeKind lattice) {
-  switch (lattice) {
-    case LatticeKind::chain:
-      return 2;
-    case LatticeKind::square:
-      return 8;
-    case LatticeKind::hexagonal:
-      return 12;
-    case LatticeKind::staggered:
-      return 4;
-    case LatticeKind::cubic:
-    case LatticeKind::bcc:
-    case LatticeKind::fcc:
-      return 48;
-    case LatticeKind::custom:
-      break;
-  }
-  return 0;
 }
 
 /// A base state that the equation of state makes felt, so that the tensor itself must turn.
@@ -162,8 +127,8 @@ TEMPLATE_TEST_CASE_SIG("rung 1: the symbol turns with the lattice, and waves k, 
     INFO(name_of(lattice));
     const auto problem = strained_problem<Dim>(lattice);
     const double scale = largest_frequency_squared(problem);
-    const auto group = point_group(problem.lattice);
-    REQUIRE(group.size() == order_of_point_group(lattice));
+    const auto group = ladder::point_group(problem.lattice);
+    REQUIRE(group.size() == ladder::order_of_point_group(lattice));
     for (const double size : {0.4, 1.3, 2.7}) {
       const Vector<Dim> k = size / problem.lattice.spacing() * some_direction<Dim>();
       const Tensor<Dim> M = analysis::dynamical_matrix<Dim>(problem, k);
