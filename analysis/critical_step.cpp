@@ -14,9 +14,9 @@
 #include "analysis/gradient_symbol.hpp"
 #include "analysis/in_range.hpp"
 #include "analysis/irreducible_domain.hpp"
+#include "analysis/updated_modes.hpp"
 #include "analysis/zone_maximum.hpp"
 #include "analysis/zone_zeros.hpp"
-#include "model/brillouin_zone.hpp"
 #include "model/lattice_index.hpp"
 
 namespace sphstab::analysis {
@@ -27,13 +27,6 @@ constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
 
 /// Where a maximum lies is known to the root of its rounding: components of k below this part of it are zero.
 constexpr double smallest_component = 1e-7;
-
-/// k in the first zone, without components that are rounding.
-template <int Dim>
-Vector<Dim> tidy(const BrillouinZone<Dim>& zone, const Vector<Dim>& wave_vector) {
-  const Vector<Dim> k = zone.in_first_zone(wave_vector);
-  return (k.array().abs() > smallest_component * k.norm()).select(k, 0.0);
-}
 
 /// Every index from 0 to counts − 1 on each axis.
 template <int Dim>
@@ -95,6 +88,14 @@ StepLimit<Dim> limit_of(const FrequencyRange<Dim>& range, const ModeSteps& step_
       *limit, bracket, {highest.wave_vector, highest.branch, std::sqrt(highest.omega_squared)}};
 }
 
+/// The limit over these modes.
+template <int Dim>
+StepLimit<Dim> limit_over(const Problem<Dim>& problem, const std::vector<Vector<Dim>>& wave_vectors) {
+  if (problem.scheme.formulation == Formulation::updated_lagrangian)
+    return UpdatedModes<Dim>(problem, wave_vectors).limit();
+  return limit_of(range_over(problem, wave_vectors), ModeSteps(problem));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -154,8 +155,14 @@ std::optional<double> BulkModes<Dim>::step_for_growth(double growth_per_step) co
 }
 
 template <int Dim>
+StepLimit<Dim> bulk_limit(const Problem<Dim>& problem) {
+  if (problem.scheme.formulation == Formulation::updated_lagrangian) return UpdatedModes<Dim>(problem).limit();
+  return BulkModes<Dim>(problem).limit();
+}
+
+template <int Dim>
 StepLimit<Dim> mode_limit(const Problem<Dim>& problem, const Vector<Dim>& wave_vector) {
-  return limit_of<Dim>(range_over<Dim>(problem, {wave_vector}), ModeSteps(problem));
+  return limit_over<Dim>(problem, {wave_vector});
 }
 
 template <int Dim>
@@ -203,23 +210,35 @@ ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem) {
   return modes;
 }
 
+template <int Dim>
+Vector<Dim> tidy(const BrillouinZone<Dim>& zone, const Vector<Dim>& wave_vector) {
+  const Vector<Dim> k = zone.in_first_zone(wave_vector);
+  return (k.array().abs() > smallest_component * k.norm()).select(k, 0.0);
+}
+
 template class BulkModes<1>;
+template StepLimit<1> bulk_limit(const Problem<1>&);
 template StepLimit<1> mode_limit(const Problem<1>&, const Vector<1>&);
 template StepLimit<1> paper_limit(const Problem<1>&, const LatticeIndex<1>&);
 template StepLimit<1> patch_limit(const Problem<1>&, const LatticeIndex<1>&);
 template std::optional<double> published_bound(const Problem<1>&);
 template ZeroEnergyModes<1> zero_energy_modes(const Problem<1>&);
+template Vector<1> tidy(const BrillouinZone<1>&, const Vector<1>&);
 template class BulkModes<2>;
+template StepLimit<2> bulk_limit(const Problem<2>&);
 template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
 template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
 template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
 template std::optional<double> published_bound(const Problem<2>&);
 template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
+template Vector<2> tidy(const BrillouinZone<2>&, const Vector<2>&);
 template class BulkModes<3>;
+template StepLimit<3> bulk_limit(const Problem<3>&);
 template StepLimit<3> mode_limit(const Problem<3>&, const Vector<3>&);
 template StepLimit<3> paper_limit(const Problem<3>&, const LatticeIndex<3>&);
 template StepLimit<3> patch_limit(const Problem<3>&, const LatticeIndex<3>&);
 template std::optional<double> published_bound(const Problem<3>&);
 template ZeroEnergyModes<3> zero_energy_modes(const Problem<3>&);
+template Vector<3> tidy(const BrillouinZone<3>&, const Vector<3>&);
 
 }  // namespace sphstab::analysis

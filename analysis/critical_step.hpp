@@ -7,6 +7,7 @@
 
 #include "analysis/branch.hpp"
 #include "analysis/mode_step.hpp"
+#include "model/brillouin_zone.hpp"
 #include "model/problem.hpp"
 
 namespace sphstab::analysis {
@@ -24,6 +25,12 @@ struct CriticalMode {
   double omega;  ///< angular frequency in continuous time, undamped; of an unstable mode its growth rate
 };
 
+/// How a bracket was got.
+enum class BracketKind {
+  certified,  ///< by bounds over the whole set of modes
+  searched    ///< the width of the last step of a search that samples the modes
+};
+
 /// Stable up to `critical_time_step`, the largest Δt such that no smaller one grows. The formulas are those of ModeStep
 /// at the largest ω². Tested in tests/analysis/test_critical_step.cpp.
 template <int Dim>
@@ -31,6 +38,7 @@ struct ConditionallyStable {
   double critical_time_step;
   Bracket bracket;
   CriticalMode<Dim> mode;
+  BracketKind bracket_kind = BracketKind::certified;
 };
 
 /// No mode has a restoring force; nothing limits Δt.
@@ -84,8 +92,8 @@ class ModeSteps {
   std::optional<Damping> damping_;
 };
 
-/// The infinite lattice: its extreme frequencies over the whole Brillouin zone, found once with certified bounds, and
-/// what follows from them for any step.
+/// The infinite lattice of a total-Lagrangian scheme: its extreme frequencies over the whole Brillouin zone, found once
+/// with certified bounds, and what follows from them for any step.
 template <int Dim>
 class BulkModes {
  public:
@@ -93,6 +101,8 @@ class BulkModes {
 
   /// The exact critical time step.
   StepLimit<Dim> limit() const;
+
+  const FrequencyRange<Dim>& frequencies() const { return range_; }
 
   /// max |D(k)| over the zone, 1 / length (`symbol_maximum`), kernel normalisation included.
   double symbol_maximum() const { return symbol_maximum_; }
@@ -111,6 +121,10 @@ class BulkModes {
   FrequencyRange<Dim> range_;
   double symbol_maximum_;
 };
+
+/// The exact critical time step of the infinite lattice, of any scheme: that of BulkModes or UpdatedModes.
+template <int Dim>
+StepLimit<Dim> bulk_limit(const Problem<Dim>& problem);
 
 /// The limit of one mode.
 template <int Dim>
@@ -142,23 +156,33 @@ struct ZeroEnergyModes {
 template <int Dim>
 ZeroEnergyModes<Dim> zero_energy_modes(const Problem<Dim>& problem);
 
+/// k in the first zone, without components that are rounding: where a maximum lies is known to the root of its own.
+template <int Dim>
+Vector<Dim> tidy(const BrillouinZone<Dim>& zone, const Vector<Dim>& wave_vector);
+
 extern template class BulkModes<1>;
+extern template StepLimit<1> bulk_limit(const Problem<1>&);
 extern template StepLimit<1> mode_limit(const Problem<1>&, const Vector<1>&);
 extern template StepLimit<1> paper_limit(const Problem<1>&, const LatticeIndex<1>&);
 extern template StepLimit<1> patch_limit(const Problem<1>&, const LatticeIndex<1>&);
 extern template std::optional<double> published_bound(const Problem<1>&);
 extern template ZeroEnergyModes<1> zero_energy_modes(const Problem<1>&);
+extern template Vector<1> tidy(const BrillouinZone<1>&, const Vector<1>&);
 extern template class BulkModes<2>;
+extern template StepLimit<2> bulk_limit(const Problem<2>&);
 extern template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
 extern template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
 extern template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
 extern template std::optional<double> published_bound(const Problem<2>&);
 extern template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
+extern template Vector<2> tidy(const BrillouinZone<2>&, const Vector<2>&);
 extern template class BulkModes<3>;
+extern template StepLimit<3> bulk_limit(const Problem<3>&);
 extern template StepLimit<3> mode_limit(const Problem<3>&, const Vector<3>&);
 extern template StepLimit<3> paper_limit(const Problem<3>&, const LatticeIndex<3>&);
 extern template StepLimit<3> patch_limit(const Problem<3>&, const LatticeIndex<3>&);
 extern template std::optional<double> published_bound(const Problem<3>&);
 extern template ZeroEnergyModes<3> zero_energy_modes(const Problem<3>&);
+extern template Vector<3> tidy(const BrillouinZone<3>&, const Vector<3>&);
 
 }  // namespace sphstab::analysis

@@ -6,9 +6,9 @@
 namespace sphstab::analysis {
 
 template <int Dim, int Size, class Scalar>
-Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> step_matrix(const LinearMotion<Dim, Size, Scalar>& motion,
-                                                                  Integrator integrator, double time_step) {
-  using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+StepMatrix<Dim, Size, Scalar> step_matrix(const LinearMotion<Dim, Size, Scalar>& motion, Integrator integrator,
+                                          double time_step) {
+  using Rows = StepMatrix<Dim, Size, Scalar>;
   const bool stores_rates = integrator == Integrator::predictor_corrector_pec;
   const int size = (2 * Dim + Size) + (stores_rates ? Dim + Size : 0);
   const double dt = time_step;
@@ -67,16 +67,19 @@ LinearMotion<Dim, Dim, double> reduced_motion(const UpdatedWave<Dim>& wave) {
           unit * Tensor<Dim>::Identity(), -stress_part / unit,     unit};
 }
 
-template Eigen::MatrixXcd step_matrix(const LinearMotion<1, 2, std::complex<double>>&, Integrator, double);
-template Eigen::MatrixXd step_matrix(const LinearMotion<1, 1, double>&, Integrator, double);
+template StepMatrix<1, 2, std::complex<double>> step_matrix(const LinearMotion<1, 2, std::complex<double>>&, Integrator,
+                                                            double);
+template StepMatrix<1, 1, double> step_matrix(const LinearMotion<1, 1, double>&, Integrator, double);
 template LinearMotion<1, 2, std::complex<double>> full_motion(const UpdatedWave<1>&);
 template LinearMotion<1, 1, double> reduced_motion(const UpdatedWave<1>&);
-template Eigen::MatrixXcd step_matrix(const LinearMotion<2, 4, std::complex<double>>&, Integrator, double);
-template Eigen::MatrixXd step_matrix(const LinearMotion<2, 2, double>&, Integrator, double);
+template StepMatrix<2, 4, std::complex<double>> step_matrix(const LinearMotion<2, 4, std::complex<double>>&, Integrator,
+                                                            double);
+template StepMatrix<2, 2, double> step_matrix(const LinearMotion<2, 2, double>&, Integrator, double);
 template LinearMotion<2, 4, std::complex<double>> full_motion(const UpdatedWave<2>&);
 template LinearMotion<2, 2, double> reduced_motion(const UpdatedWave<2>&);
-template Eigen::MatrixXcd step_matrix(const LinearMotion<3, 7, std::complex<double>>&, Integrator, double);
-template Eigen::MatrixXd step_matrix(const LinearMotion<3, 3, double>&, Integrator, double);
+template StepMatrix<3, 7, std::complex<double>> step_matrix(const LinearMotion<3, 7, std::complex<double>>&, Integrator,
+                                                            double);
+template StepMatrix<3, 3, double> step_matrix(const LinearMotion<3, 3, double>&, Integrator, double);
 template LinearMotion<3, 7, std::complex<double>> full_motion(const UpdatedWave<3>&);
 template LinearMotion<3, 3, double> reduced_motion(const UpdatedWave<3>&);
 

@@ -17,11 +17,15 @@ struct LinearMotion {
   double position_unit = 1.0;                   ///< u, where positions are stored as u r and κ stands for u κ
 };
 
+/// E, whose size depends on the integrator.
+template <int Dim, int Size, class Scalar>
+using StepMatrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, 3 * Dim + 2 * Size, 3 * Dim + 2 * Size>;
+
 /// E of one step of the integrator, in the order (r, v, q) and, for `predictor-corrector-pec`, the stored rates of v
 /// and of q. The steps are those of Integrator. Tested in tests/analysis/test_updated_lagrangian.cpp.
 template <int Dim, int Size, class Scalar>
-Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> step_matrix(const LinearMotion<Dim, Size, Scalar>& motion,
-                                                                  Integrator integrator, double time_step);
+StepMatrix<Dim, Size, Scalar> step_matrix(const LinearMotion<Dim, Size, Scalar>& motion, Integrator integrator,
+                                          double time_step);
 
 /// The whole state of `ul`: q = (ρ, S).
 template <int Dim>

@@ -14,6 +14,17 @@ constexpr double roundings = 32.0 * std::numeric_limits<double>::epsilon();
 /// A principal stress below this part of the stress is a rounding of zero.
 constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
 
+template <int Dim>
+Tensor<Dim> stress_of(const Problem<Dim>& problem) {
+  return problem.deviatoric_stress - problem.pressure * Tensor<Dim>::Identity();
+}
+
+template <int Dim>
+double density_of(const Problem<Dim>& problem) {
+  const double rho0 = problem.material.density();
+  return rho0 + problem.pressure * rho0 / problem.material.bulk_modulus();
+}
+
 /// Principal axes of σ and what the artificial stress takes of its principal stresses.
 template <int Dim>
 class PrincipalStress {
@@ -29,6 +40,8 @@ class PrincipalStress {
     };
     for (int i = 0; i < Dim; ++i) tensile_[i] = is_tensile(values_[i]);
   }
+
+  bool has_zero() const { return (values_.array() == 0.0).any(); }
 
   /// σ₊.
   Tensor<Dim> positive_part() const { return axes_ * values_.cwiseMax(0.0).asDiagonal() * axes_.transpose(); }
@@ -65,11 +78,11 @@ UpdatedLagrangian<Dim>::UpdatedLagrangian(const Problem<Dim>& problem)
       epsilon_(problem.scheme.artificial_stress ? problem.scheme.artificial_stress->epsilon : 0.0),
       xsph_(problem.scheme.xsph ? problem.scheme.xsph->epsilon : 0.0),
       shear_modulus_(problem.material.shear_modulus()),
-      stress_(problem.deviatoric_stress - problem.pressure * Tensor<Dim>::Identity()),
+      density_(density_of(problem)),
+      stress_(stress_of(problem)),
       deviatoric_(problem.deviatoric_stress),
       artificial_(Tensor<Dim>::Zero()) {
-  const double rho0 = problem.material.density(), square_of_c0 = problem.material.bulk_modulus() / rho0;
-  density_ = rho0 + problem.pressure / square_of_c0;
+  const double square_of_c0 = problem.material.bulk_modulus() / problem.material.density();
   const double rho = density_, rho_squared = rho * rho;
   friction_ = problem.scheme.viscosity
                   ? problem.scheme.viscosity->alpha * problem.kernel.smoothing_length() * std::sqrt(square_of_c0)
@@ -174,13 +187,36 @@ Vector<Dim, std::complex<double>> squared_frequencies(const Tensor<Dim>& M, doub
   return values;
 }
 
+template <int Dim>
+Tensor<Dim> continuum_matrix(const Problem<Dim>& problem, const Vector<Dim>& k) {
+  const Tensor<Dim> unity = Tensor<Dim>::Identity(), along = k * k.transpose(), &S = problem.deviatoric_stress;
+  const double square_of_c0 = problem.material.bulk_modulus() / problem.material.density();
+  const double rho = density_of(problem), square = k.squaredNorm();
+  const Tensor<Dim> of_shear = square * unity + along / 3.0;
+  const Tensor<Dim> of_spin = 0.5 * (k.dot(S * k) * unity - along * S - square * S + S * along);
+  return square_of_c0 * along + (problem.material.shear_modulus() * of_shear + of_spin) / rho;
+}
+
+template <int Dim>
+bool has_one_sided_states(const Problem<Dim>& problem) {
+  const auto& artificial = problem.scheme.artificial_stress;
+  if (!artificial || artificial->linearisation == ArtificialStressLinearisation::frozen) return false;
+  return PrincipalStress<Dim>(stress_of(problem), artificial->zero_side).has_zero();
+}
+
 double growth_rate_of(std::complex<double> omega_squared) { return std::abs(std::sqrt(-omega_squared).real()); }
 
 template class UpdatedLagrangian<1>;
+template Tensor<1> continuum_matrix(const Problem<1>&, const Vector<1>&);
+template bool has_one_sided_states(const Problem<1>&);
 template Vector<1, std::complex<double>> squared_frequencies(const Tensor<1>&, double);
 template class UpdatedLagrangian<2>;
+template Tensor<2> continuum_matrix(const Problem<2>&, const Vector<2>&);
+template bool has_one_sided_states(const Problem<2>&);
 template Vector<2, std::complex<double>> squared_frequencies(const Tensor<2>&, double);
 template class UpdatedLagrangian<3>;
+template Tensor<3> continuum_matrix(const Problem<3>&, const Vector<3>&);
+template bool has_one_sided_states(const Problem<3>&);
 template Vector<3, std::complex<double>> squared_frequencies(const Tensor<3>&, double);
 
 }  // namespace sphstab::analysis

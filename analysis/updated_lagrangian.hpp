@@ -79,14 +79,32 @@ class UpdatedLagrangian {
 template <int Dim>
 Vector<Dim, std::complex<double>> squared_frequencies(const Tensor<Dim>& dynamical_matrix, double rounding);
 
+/// M of the elastic continuum in the same base state, without artificial stress and viscosity: what long waves see of a
+/// perfect lattice. Gray Eqs. 4.9, 4.10 and their like in other dimensions,
+///   M X = c0² k (k·X) + (μ/ρ̄) [|k|² X + k (k·X)/3] + (1/ρ̄) (w S − S w) k,  w = ½ (X kᵀ − k Xᵀ).
+/// Tested in tests/analysis/test_continuum.cpp.
+template <int Dim>
+Tensor<Dim> continuum_matrix(const Problem<Dim>& problem, const Vector<Dim>& wave_vector);
+
+/// Whether the base state has two linearisations, one a ZeroStressSide: a principal stress is zero and artificial
+/// stress follows it.
+template <int Dim>
+bool has_one_sided_states(const Problem<Dim>& problem);
+
 /// The fastest growth of e^{iωt} and e^{−iωt}: |Re √(−ω²)|.
 double growth_rate_of(std::complex<double> omega_squared);
 
 extern template class UpdatedLagrangian<1>;
+extern template Tensor<1> continuum_matrix(const Problem<1>&, const Vector<1>&);
+extern template bool has_one_sided_states(const Problem<1>&);
 extern template Vector<1, std::complex<double>> squared_frequencies(const Tensor<1>&, double);
 extern template class UpdatedLagrangian<2>;
+extern template Tensor<2> continuum_matrix(const Problem<2>&, const Vector<2>&);
+extern template bool has_one_sided_states(const Problem<2>&);
 extern template Vector<2, std::complex<double>> squared_frequencies(const Tensor<2>&, double);
 extern template class UpdatedLagrangian<3>;
+extern template Tensor<3> continuum_matrix(const Problem<3>&, const Vector<3>&);
+extern template bool has_one_sided_states(const Problem<3>&);
 extern template Vector<3, std::complex<double>> squared_frequencies(const Tensor<3>&, double);
 
 }  // namespace sphstab::analysis

@@ -29,13 +29,14 @@ struct CaseCommand {
   std::vector<std::string> (*explain)(const Case& input) = nullptr;
   std::vector<std::string> columns = {};       ///< that `table` shows unless told others; empty: every plain result
   Json (*rows)(const Json& answer) = nullptr;  ///< the answer as the rows of a table; absent: it has one row
-  io::LineFigure (*figure)(const Case& input) = nullptr;  ///< what --figure draws; absent: there is no such option
-  bool has_files = false;                                 ///< whether --output makes it write files
+  std::string (*figure)(const Case& input) = nullptr;  ///< the SVG of --figure; absent: there is no such option
+  bool has_files = false;                              ///< whether --output makes it write files
 };
 
 CaseCommand dt_command();
 CaseCommand matrix_command();
 CaseCommand dispersion_command();
+CaseCommand growth_command();
 CaseCommand bisect_command();
 CaseCommand spectrum_command();
 CaseCommand run_command();

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cli/command.hpp"
 #include "cli/text.hpp"
 #include "study/explanation.hpp"
 
 namespace sphstab::cli {
 namespace {
+
+std::string describe_law(const Json& law) {
+  return fmt::format(
+      "{:.6g} dt^{} for short steps; steps or tolerated_growth_per_step ask for the largest that you bear",
+      law["coefficient"].get<double>(), law["exponent"].get<int>());
+}
 
 std::string describe_limit(const Json& answer) {
   const std::string verdict = answer["verdict"];
@@ -18,6 +26,10 @@ std::string describe_limit(const Json& answer) {
     return row("verdict", "never stable: the base state grows at every time step") +
            row("growth rate", fmt::format("{:.8g} per time", answer["growth_rate"].get<double>())) +
            row("fastest mode", wave);
+  if (verdict == "weakly-unstable")
+    return row("verdict", "weakly unstable: nothing grows in continuous time, yet every time step makes it grow") +
+           row("growth per step", describe_law(answer["growth_law"])) +
+           row("fastest mode", fmt::format("{}, omega = {:.8g}", wave, mode["omega"].get<double>()));
   return row("critical time step", fmt::format("{:.12g}", answer["critical_time_step"].get<double>())) +
          row("certified between", fmt::format("{:.17g} and {:.17g}", answer["bracket"][0].get<double>(),
                                               answer["bracket"][1].get<double>())) +
@@ -47,9 +59,12 @@ std::string describe_equivalents(const Json& equivalents) {
 
 std::string describe_zero_energy(const Json& answer) {
   const Json& modes = answer["zero_energy_modes"];
+  const bool stressed = answer.value("stressed", false);
   std::string text =
-      fmt::format("\nZero-energy modes (no time step removes them; they drift, they do not grow): {}{}\n", modes.size(),
-                  answer["zero_energy_modes_complete"].get<bool>() ? "" : " or more");
+      fmt::format("\nZero-energy modes ({}): {}{}\n",
+                  stressed ? "no change of stress resists them; the present stress alone decides whether they grow"
+                           : "no time step removes them; they drift, they do not grow",
+                  modes.size(), answer["zero_energy_modes_complete"].get<bool>() ? "" : " or more");
   constexpr std::size_t shown = 8;
   for (std::size_t i = 0; i < std::min(shown, modes.size()); ++i)
     text += fmt::format("  k = ({})\n", numbers(modes[i], 6));
@@ -69,6 +84,10 @@ std::string describe(const Json& answer) {
   if (answer.contains("spectral_radius_at_time_step"))
     text += row("spectral radius", fmt::format("{:.12g} at the time step given, over the whole zone",
                                                answer["spectral_radius_at_time_step"].get<double>()));
+  if (answer.contains("growth_per_step_at_time_step"))
+    text += row("growth per step", fmt::format("{:.8g} at the time step given, a factor e in {:.6g} steps",
+                                               answer["growth_per_step_at_time_step"].get<double>(),
+                                               1.0 / std::log(answer["spectral_radius_at_time_step"].get<double>())));
   if (answer.contains("time_step_for_tolerance"))
     text += row("tolerable time step", number_or(answer["time_step_for_tolerance"], "none"));
   if (answer.contains("equivalents")) text += describe_equivalents(answer["equivalents"]);

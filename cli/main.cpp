@@ -71,7 +71,7 @@ struct Output {
 int run_case_command(const CaseCommand& command, const Case& input, const Output& output) {
   check_format(output.format);
   output.check(command);
-  if (output.figure) io::write_file(*output.figure, io::render_svg(command.figure(input)), output.existing());
+  if (output.figure) io::write_file(*output.figure, command.figure(input), output.existing());
   std::optional<io::OutputFolder> folder;
   if (output.folder) {
     folder.emplace(*output.folder, output.existing());
@@ -221,10 +221,11 @@ class Program {
 }  // namespace
 
 std::span<const CaseCommand> case_commands() {
-  static const std::array<CaseCommand, 8> commands{
+  static const std::array<CaseCommand, 9> commands{
       dt_command(),
       matrix_command(),
       dispersion_command(),
+      growth_command(),
       bisect_command(),
       spectrum_command(),
       run_command(),

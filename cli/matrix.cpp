@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "cli/command.hpp"
 #include "cli/text.hpp"
@@ -7,25 +10,32 @@
 namespace sphstab::cli {
 namespace {
 
-std::string complex_number(const Json& pair) {
-  const double real = pair[0], imaginary = pair[1];
-  return imaginary == 0.0 ? fmt::format("{:.8g}", real) : fmt::format("{:.8g}{:+.8g}i", real, imaginary);
+constexpr int digits = 8;
+
+/// The matrix with the names of the state above and beside it, every column as wide as its widest entry.
+std::string table_of(const Json& state, const Json& matrix) {
+  std::string header = fmt::format("  {:>6}", "");
+  std::vector<std::string> lines;
+  for (const Json& name : state) lines.push_back(fmt::format("  {:>6}", name.get<std::string>()));
+  for (std::size_t j = 0; j < state.size(); ++j) {
+    std::size_t width = 12;
+    std::vector<std::string> cells;
+    for (const Json& entries : matrix) {
+      cells.push_back(complex_number(complex_of(entries[j]), digits));
+      width = std::max(width, cells.back().size());
+    }
+    header += fmt::format("  {:>{}}", state[j].get<std::string>(), width);
+    for (std::size_t i = 0; i < cells.size(); ++i) lines[i] += fmt::format("  {:>{}}", cells[i], width);
+  }
+  return fmt::format("{}\n{}\n", header, fmt::join(lines, "\n"));
 }
 
 std::string describe(const Json& answer) {
-  std::string text = fmt::format("Amplification matrix E at k = ({}), time step {:.12g}\n\n",
-                                 numbers(answer["wave_vector"], 8), answer["time_step"].get<double>());
-  const Json& state = answer["state"];
-  text += fmt::format("  {:>6}", "");
-  for (const Json& name : state) text += fmt::format(" {:>16}", name.get<std::string>());
-  text += "\n";
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    text += fmt::format("  {:>6}", state[i].get<std::string>());
-    for (const Json& entry : answer["amplification_matrix"][i]) text += fmt::format(" {:>16}", complex_number(entry));
-    text += "\n";
-  }
-  text += "\n";
-  for (const Json& eigenvalue : answer["eigenvalues"]) text += row("eigenvalue", complex_number(eigenvalue));
+  std::string text = fmt::format("Amplification matrix E at k = ({}), time step {:.12g}\n\n{}\n",
+                                 numbers(answer["wave_vector"], digits), answer["time_step"].get<double>(),
+                                 table_of(answer["state"], answer["amplification_matrix"]));
+  for (const Json& eigenvalue : answer["eigenvalues"])
+    text += row("eigenvalue", complex_number(complex_of(eigenvalue), digits));
   text += row("spectral radius", fmt::format("{:.12g}", answer["spectral_radius"].get<double>()));
   return text + row("power-bounded", answer["power_bounded"].get<bool>() ? "yes" : "no");
 }

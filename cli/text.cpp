@@ -18,6 +18,13 @@ std::string number_or(const study::Json& number, std::string_view otherwise, int
   return number.is_null() ? std::string(otherwise) : fmt::format("{:.{}g}", number.get<double>(), digits);
 }
 
+std::string complex_number(std::complex<double> value, int digits) {
+  if (value.imag() == 0.0) return fmt::format("{:.{}g}", value.real(), digits);
+  return fmt::format("{:.{}g}{:+.{}g}i", value.real(), digits, value.imag(), digits);
+}
+
+std::complex<double> complex_of(const study::Json& pair) { return {pair[0].get<double>(), pair[1].get<double>()}; }
+
 std::string subject(const study::Json& answer) {
   if (answer.contains("scene")) return "the scene " + answer["scene"].get<std::string>();
   const bool plate = answer.contains("plate");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <complex>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,12 @@ std::string numbers(const study::Json& list, int digits);
 
 /// A number with so many digits, or `otherwise` for null.
 std::string number_or(const study::Json& number, std::string_view otherwise, int digits = 12);
+
+/// A complex number with so many digits of each part; a real one without the imaginary part.
+std::string complex_number(std::complex<double> value, int digits);
+
+/// The number of a pair [re, im].
+std::complex<double> complex_of(const study::Json& pair);
 
 /// The body that an answer is of, in words.
 std::string subject(const study::Json& answer);

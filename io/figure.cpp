@@ -33,6 +33,9 @@ constexpr int height_of_diagram = 480, height_of_label = 23;
 /// Filled and open circle, square, triangle, diamond: gnuplot's point types.
 constexpr std::array<int, 8> markers{7, 4, 9, 12, 5, 6, 13, 8};
 
+/// Colours of values, from dark to light.
+constexpr std::string_view palette = "0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725'";
+
 template <class List>
 auto cycled(const List& list, std::size_t i) {
   return list[i % list.size()];
@@ -96,13 +99,18 @@ std::string marks(const LineFigure& figure) {
   return script;
 }
 
+/// The points of a curve as the data block of that name and number.
+std::string data_of(std::string_view name, const Curve& curve, std::size_t i) {
+  std::string data = fmt::format("${}{} << end_of_{}\n", name, i, name);
+  for (const auto& [x, y] : curve.points) data += fmt::format("{} {}\n", number(x), number(y));
+  return data + fmt::format("end_of_{}\n", name);
+}
+
 std::string curves(const LineFigure& figure) {
   std::string data, plot;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
     const Curve& curve = figure.curves[i];
-    data += fmt::format("$curve{} << end_of_curve\n", i);
-    for (const auto& [x, y] : curve.points) data += fmt::format("{} {}\n", number(x), number(y));
-    data += "end_of_curve\n";
+    data += data_of("curve", curve, i);
     plot += fmt::format("{}$curve{} using 1:2 with {} {}", i == 0 ? "plot " : ", ", i, style_of(curve, i),
                         curve.label.empty() ? "notitle" : "title " + quoted(curve.label) + " noenhanced");
   }
@@ -260,9 +268,9 @@ std::string script_of(const ParticleFigure& figure) {
       "set terminal svg size {:.0f},{:.0f} dynamic font 'sans-serif,{}' background rgb '#FFFFFF'\n"
       "set border linecolor rgb '#404040'\nset tics nomirror out scale 0.6\nset format '%g'\n"
       "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset cblabel {} noenhanced\n"
-      "set palette defined (0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725')\n",
+      "set palette defined ({})\n",
       layout.width(), layout.height(), font_size, quoted(figure.x_label), quoted(figure.y_label),
-      quoted(figure.value_label));
+      quoted(figure.value_label), palette);
   if (figure.value_range)
     script += fmt::format("set cbrange [{}:{}]\n", figure.value_range->first, figure.value_range->second);
   const int panels = static_cast<int>(figure.panels.size());
@@ -270,6 +278,57 @@ std::string script_of(const ParticleFigure& figure) {
   script += fmt::format("set multiplot title {} noenhanced\n", quoted(figure.title));
   for (int i = 0; i < panels; ++i) script += plot_of(figure, layout, i);
   return script + "unset multiplot\n";
+}
+
+/// The range of cells around these centres, as gnuplot writes one.
+std::string range_of(const std::vector<double>& centres) {
+  const double half = 0.5 * (centres.back() - centres.front()) / static_cast<double>(centres.size() - 1);
+  return fmt::format("[{}:{}]", centres.front() - half, centres.back() + half);
+}
+
+/// Black over white: seen on any colour.
+std::string outline_of(const Curve& curve, std::size_t i) {
+  const bool points = curve.style == CurveStyle::points;
+  const auto title = curve.label.empty() ? "notitle" : "title " + quoted(curve.label) + " noenhanced";
+  if (points)
+    return fmt::format(
+        ", $outline{0} using 1:2 with points pointtype 7 pointsize 1.1 linecolor rgb '#FFFFFF' notitle"
+        ", $outline{0} using 1:2 with points pointtype 6 pointsize 1.1 linewidth 2 linecolor rgb '#000000' {1}",
+        i, title);
+  const auto stroke = curve.style == CurveStyle::dashed ? dashed_stroke : strokes.front();
+  return fmt::format(
+      ", $outline{0} using 1:2 with lines linewidth 3.5 linecolor rgb '#FFFFFF' notitle"
+      ", $outline{0} using 1:2 with lines dashtype {1} linewidth 1.5 linecolor rgb '#000000' {2}",
+      i, stroke, title);
+}
+
+std::string script_of(const MapFigure& figure) {
+  constexpr std::string_view hatched = "fillstyle pattern 4 noborder fillcolor rgb '#BBBBBB'";
+  const bool any = std::any_of(figure.values.begin(), figure.values.end(), [](double v) { return std::isfinite(v); });
+  std::string script = fmt::format(
+      "set encoding utf8\n"
+      "set terminal svg size 840,680 dynamic font 'sans-serif,15' background rgb '#FFFFFF'\n"
+      "set border linecolor rgb '#404040'\nset tics nomirror out scale 0.6\nset size {}\n"
+      "set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\nset cblabel {} noenhanced\n"
+      "set palette defined ({})\nset xrange {}\nset yrange {}\n{} colorbox\n"
+      "set key below left vertical maxcols 1 reverse Left samplen 3.5\n"
+      "set object rectangle from graph 0,0 to graph 1,1 behind {}\n$cells << end_of_cells\n",
+      figure.equal_units ? "ratio -1" : "noratio", quoted(figure.title), quoted(figure.x_label), quoted(figure.y_label),
+      quoted(figure.value_label), palette, range_of(figure.x), range_of(figure.y), any ? "set" : "unset", hatched);
+  if (figure.value_range)
+    script.insert(0, fmt::format("set cbrange [{}:{}]\n", figure.value_range->first, figure.value_range->second));
+  for (std::size_t j = 0; j < figure.y.size(); ++j) {
+    for (std::size_t i = 0; i < figure.x.size(); ++i)
+      script += fmt::format("{} {} {}\n", figure.x[i], figure.y[j], number(figure.values[i + j * figure.x.size()]));
+    script += "\n";
+  }
+  script += "end_of_cells\n";
+  for (std::size_t i = 0; i < figure.outlines.size(); ++i) script += data_of("outline", figure.outlines[i], i);
+  script += any ? "plot $cells using 1:2:3 with image notitle" : "plot NaN notitle";
+  for (std::size_t i = 0; i < figure.outlines.size(); ++i) script += outline_of(figure.outlines[i], i);
+  if (!figure.blank_label.empty())
+    script += fmt::format(", keyentry with boxes {} title {} noenhanced", hatched, quoted(figure.blank_label));
+  return script + "\n";
 }
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
@@ -323,5 +382,7 @@ std::string drawn(const std::string& script) {
 std::string render_svg(const LineFigure& figure) { return drawn(script_of(figure)); }
 
 std::string render_svg(const ParticleFigure& figure) { return drawn(script_of(figure)); }
+
+std::string render_svg(const MapFigure& figure) { return drawn(script_of(figure)); }
 
 }  // namespace sphstab::io

@@ -40,9 +40,9 @@ struct LineFigure {
   bool x_log = false;
   bool y_log = false;
   std::vector<Curve> curves;
-  std::vector<Mark> x_ticks;         ///< in place of numbers, such as Γ, X, M along a path
-  std::vector<Mark> vertical_lines;  ///< labelled at their upper end
-  std::vector<Shade> shades;
+  std::vector<Mark> x_ticks = {};         ///< in place of numbers, such as Γ, X, M along a path
+  std::vector<Mark> vertical_lines = {};  ///< labelled at their upper end
+  std::vector<Shade> shades = {};
 };
 
 /// The figure as an SVG drawn by gnuplot; the same figure always gives the same bytes. Text is printed as it is, not
@@ -73,5 +73,23 @@ struct ParticleFigure {
 
 /// The same for particles, some hundred bytes each. Those that are not finite are left out. Every panel must have one.
 std::string render_svg(const ParticleFigure& figure);
+
+/// A scalar over a rectangle as coloured cells.
+struct MapFigure {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  std::string value_label;     ///< beside the colour bar
+  std::vector<double> x;       ///< centres of the cells, ascending and equally spaced, at least two
+  std::vector<double> y;       ///< likewise
+  std::vector<double> values;  ///< of cell (x_i, y_j) at i + j · size of x; one that is not finite leaves it hatched
+  std::string blank_label;     ///< what the hatching means, in the legend; empty: no line there
+  std::vector<Curve> outlines = {};  ///< black with a white seam over the cells, such as the boundary of a zone
+  bool equal_units = false;          ///< whether a unit of x is as long as one of y
+  std::optional<std::pair<double, double>> value_range = {};  ///< of the colours; none: that of the values
+};
+
+/// The same for a map. The picture of the cells is embedded.
+std::string render_svg(const MapFigure& figure);
 
 }  // namespace sphstab::io

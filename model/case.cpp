@@ -38,7 +38,6 @@ constexpr std::array scheme_keys{SchemeKey{"density_in_momentum", total_lagrangi
                                  SchemeKey{"kernel_normalisation", total_lagrangian_linear},
                                  SchemeKey{"damping_rate", total_lagrangian_linear},
                                  SchemeKey{"plane", total_lagrangian_linear},
-                                 SchemeKey{"deformation_gradient", updated_lagrangian},
                                  SchemeKey{"sound_speed", updated_lagrangian},
                                  SchemeKey{"pressure", updated_lagrangian},
                                  SchemeKey{"deviatoric_stress", updated_lagrangian},
@@ -56,10 +55,14 @@ bool is_neutral(const Case& input, const Key& key) {
   return *input.word(key.name) == key.default_value;
 }
 
+InvalidInput of_another_scheme(std::string_view key, Formulation of, Formulation given) {
+  return InvalidInput(fmt::format("{}: is for the scheme {}, not {}", key, name_of(of), name_of(given)));
+}
+
 void refuse_keys_of_other_schemes(const Case& input, Formulation formulation) {
   for (const auto& [name, of] : scheme_keys)
     if (of != formulation && input.has(name) && !is_neutral(input, find_key(name)))
-      throw InvalidInput(fmt::format("{}: is for the scheme {}, not {}", name, name_of(of), name_of(formulation)));
+      throw of_another_scheme(name, of, formulation);
 }
 
 std::optional<ArtificialStress> make_artificial_stress(const Case& input) {
@@ -104,6 +107,15 @@ Tensor<Dim> make_tensor(const Case& input, std::string_view key, const Tensor<Di
   if (!rows) return otherwise;
   require_length(key, rows->size(), Dim * Dim);
   return Eigen::Map<const Tensor<Dim>>(rows->data()).transpose();
+}
+
+/// The lattice of the base state.
+template <int Dim>
+Lattice<Dim> make_deformed_lattice(const Case& input, Formulation formulation) {
+  const Tensor<Dim> unity = Tensor<Dim>::Identity(), F = make_tensor<Dim>(input, "deformation_gradient", unity);
+  if (formulation != updated_lagrangian && F != unity)
+    throw of_another_scheme("deformation_gradient", updated_lagrangian, formulation);
+  return make_lattice<Dim>(input).deformed(F);
 }
 
 /// S of the base state of `ul`.
@@ -202,8 +214,7 @@ Material make_material(const Case& input) {
 template <int Dim>
 Problem<Dim> make_problem(const Case& input) {
   const Scheme scheme = make_scheme(input);
-  Problem<Dim> problem{.lattice = make_lattice<Dim>(input).deformed(
-                           make_tensor<Dim>(input, "deformation_gradient", Tensor<Dim>::Identity())),
+  Problem<Dim> problem{.lattice = make_deformed_lattice<Dim>(input, scheme.formulation),
                        .kernel = make_kernel<Dim>(input),
                        .neighbour_rule = neighbour_rule(input),
                        .material = make_material(input),

@@ -57,7 +57,8 @@ const Key table[] = {
     {"displacement_gradient", numbers, scheme, "",
      "tl-linear: displacement gradient of the base state, row by row; default zeros"},
     {"deformation_gradient", numbers, scheme, "",
-     "ul: the lattice is deformed by it at fixed h, row by row; default the identity"},
+     "ul: the lattice is deformed by it, row by row, at fixed h and W(spacing), a particle filling a deformed cell; "
+     "default the identity"},
     {"pressure", number, scheme, "0", "ul: pressure of the base state, positive in compression"},
     {"deviatoric_stress", numbers, scheme, "",
      "ul: deviatoric stress of the base state: Sxx; Sxx,Syy,Sxy; Sxx,Syy,Szz,Sxy,Syz,Sxz; default zeros"},

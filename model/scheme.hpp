@@ -110,10 +110,10 @@ struct Scheme {
   Formulation formulation = Formulation::total_lagrangian_linear;
   MomentumDensity momentum_density = MomentumDensity::frozen;
   KernelNormalisation kernel_normalisation = KernelNormalisation::none;
-  std::optional<Damping> damping;
-  std::optional<ArtificialStress> artificial_stress;
-  std::optional<Xsph> xsph;
-  std::optional<Viscosity> viscosity;
+  std::optional<Damping> damping = {};
+  std::optional<ArtificialStress> artificial_stress = {};
+  std::optional<Xsph> xsph = {};
+  std::optional<Viscosity> viscosity = {};
 };
 
 /// Throws InvalidInput naming `what` there is for total-Lagrangian schemes alone, unless this is one.

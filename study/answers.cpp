@@ -9,10 +9,12 @@
 #include "analysis/amplification.hpp"
 #include "analysis/critical_step.hpp"
 #include "analysis/lattice_sums.hpp"
+#include "analysis/updated_modes.hpp"
 #include "io/scene_input.hpp"
 #include "study/counts.hpp"
 #include "study/foreign_solver.hpp"
 #include "study/json_values.hpp"
+#include "study/p_wave_speed.hpp"
 #include "study/rules_of_thumb.hpp"
 #include "study/scene_input.hpp"
 #include "study/step_comparison.hpp"
@@ -23,11 +25,6 @@ namespace {
 constexpr const char* bulk_note =
     "bulk value of an infinite lattice: free, renormalised edges can need 0.6 of it and irregular particles 0.85";
 
-template <int Dim>
-Json to_json(const analysis::CriticalMode<Dim>& mode) {
-  return {{"wave_vector", components<Dim>(mode.wave_vector)}, {"branch", name_of(mode.branch)}, {"omega", mode.omega}};
-}
-
 /// The verdict with what belongs to it: step and bracket, or growth rate, and the critical mode.
 template <int Dim>
 Json to_json(const analysis::StepLimit<Dim>& limit) {
@@ -37,7 +34,7 @@ Json to_json(const analysis::StepLimit<Dim>& limit) {
             return {{"critical_time_step", stable.critical_time_step},
                     {"bracket", {stable.bracket.low, stable.bracket.high}},
                     {"verdict", "conditionally-stable"},
-                    {"critical_mode", to_json<Dim>(stable.mode)}};
+                    {"critical_mode", mode_json<Dim>(stable.mode)}};
           },
           [](const analysis::UnconditionallyStable&) -> Json {
             return {{"critical_time_step", nullptr}, {"bracket", nullptr}, {"verdict", "unconditionally-stable"}};
@@ -47,14 +44,14 @@ Json to_json(const analysis::StepLimit<Dim>& limit) {
                     {"bracket", nullptr},
                     {"verdict", "never-stable"},
                     {"growth_rate", unstable.growth_rate},
-                    {"critical_mode", to_json<Dim>(unstable.mode)}};
+                    {"critical_mode", mode_json<Dim>(unstable.mode)}};
           },
           [](const analysis::WeaklyUnstable<Dim>& weak) -> Json {
             return {{"critical_time_step", nullptr},
                     {"bracket", nullptr},
                     {"verdict", "weakly-unstable"},
                     {"growth_law", {{"coefficient", weak.coefficient}, {"exponent", weak.exponent}}},
-                    {"critical_mode", to_json<Dim>(weak.mode)}};
+                    {"critical_mode", mode_json<Dim>(weak.mode)}};
           }},
       limit);
 }
@@ -80,34 +77,60 @@ std::optional<double> tolerated_growth(const Case& input) {
   return steps ? std::expm1(1.0 / *steps) : growth;
 }
 
-template <int Dim>
-Json time_step_answer(const Case& input, const Request& request) {
-  const auto problem = make_problem<Dim>(input);
-  const analysis::BulkModes<Dim> modes(problem);
+/// What every scheme answers, from the modes of its infinite lattice.
+template <int Dim, class Modes>
+Json time_step_answer(const Case& input, const Problem<Dim>& problem, const Modes& modes) {
   Json answer = to_json<Dim>(modes.limit());
   const Json step = answer["critical_time_step"];
   answer["bulk_only"] = true;
   answer["note"] = bulk_note;
-  answer["symbol_maximum"] = modes.symbol_maximum();
   answer["neighbours"] = lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule).size();
   if (step.is_number()) {
-    const double p_wave_speed =
-        std::sqrt(problem.material.lame(problem.plane).p_wave_modulus() / problem.material.density());
-    answer["courant_number"] = step.get<double>() * p_wave_speed / problem.lattice.spacing();
+    answer["courant_number"] = step.get<double>() * p_wave_speed(problem) / problem.lattice.spacing();
     answer["equivalents"] = equivalents(problem, step);
   }
-  if (const auto bound = analysis::published_bound(problem))
-    answer["published_bound"] = {{"source", "Zhang, Hu, Cui & Wang, Eq. 15"},
-                                 {"value", *bound},
-                                 {"holds", step.is_number() && *bound <= step.get<double>()}};
   if (input.has("wave_vector") || input.has("mode"))
     answer["mode_limit"] = to_json<Dim>(analysis::mode_limit(problem, make_wave_vector<Dim>(input)));
   if (const auto box = make_size<Dim>(input, "box"); box && !input.has("mode"))
     answer["box_limit"] = to_json<Dim>(analysis::paper_limit(problem, *box));
   if (const auto growth = tolerated_growth(input))
     answer["time_step_for_tolerance"] = number_or_null(modes.step_for_growth(*growth));
-  if (const auto time_step = input.number("time_step"))
-    answer["spectral_radius_at_time_step"] = modes.spectral_radius(*time_step);
+  if (const auto time_step = input.number("time_step")) {
+    const double radius = modes.spectral_radius(*time_step);
+    answer["spectral_radius_at_time_step"] = radius;
+    if (answer["verdict"] == "weakly-unstable") answer["growth_per_step_at_time_step"] = radius - 1.0;
+  }
+  return answer;
+}
+
+/// What `tl-linear` has besides: the symbol D, and a published bound.
+template <int Dim>
+Json linear_time_step_answer(const Case& input, const Problem<Dim>& problem) {
+  const analysis::BulkModes<Dim> modes(problem);
+  Json answer = time_step_answer(input, problem, modes);
+  answer["symbol_maximum"] = modes.symbol_maximum();
+  if (const auto bound = analysis::published_bound(problem)) {
+    const Json& step = answer["critical_time_step"];
+    answer["published_bound"] = {{"source", "Zhang, Hu, Cui & Wang, Eq. 15"},
+                                 {"value", *bound},
+                                 {"holds", step.is_number() && *bound <= step.get<double>()}};
+  }
+  return answer;
+}
+
+/// What `ul` has besides: whether there is a stress, which makes forces at zero-energy modes too.
+template <int Dim>
+Json updated_time_step_answer(const Case& input, const Problem<Dim>& problem) {
+  Json answer = time_step_answer(input, problem, analysis::UpdatedModes<Dim>(problem));
+  answer["stressed"] = problem.pressure != 0.0 || !problem.deviatoric_stress.isZero(0.0);
+  return answer;
+}
+
+template <int Dim>
+Json time_step_answer(const Case& input, const Request& request) {
+  const auto problem = make_problem<Dim>(input);
+  const bool updated = problem.scheme.formulation == Formulation::updated_lagrangian;
+  Json answer = updated ? updated_time_step_answer(input, problem) : linear_time_step_answer(input, problem);
   if (request.wants("zero_energy_modes") || request.wants("zero_energy_modes_complete")) {
     const auto zeros = analysis::zero_energy_modes(problem);
     answer["zero_energy_modes"] = Json::array();

@@ -13,6 +13,8 @@
 #include "model/lattice_index.hpp"
 #include "study/counts.hpp"
 #include "study/json_values.hpp"
+#include "study/p_wave_speed.hpp"
+#include "study/title.hpp"
 
 namespace sphstab::study {
 namespace {
@@ -171,49 +173,118 @@ Json dispersion_answer(const Case& input, const Request& request) {
   return {{"points", std::move(points)}};
 }
 
-/// What the figure shows of a wave: its frequency, or its growth rate below zero.
-double height(double omega_squared, double growth_rate) {
-  return omega_squared < 0.0 ? -growth_rate : std::sqrt(omega_squared);
+/// What the figure shows of a wave: its frequency, or its growth rate below zero. A complex ω² has both.
+double height(std::complex<double> omega_squared, double growth_rate) {
+  return omega_squared.imag() == 0.0 && omega_squared.real() < 0.0 ? -growth_rate : std::sqrt(omega_squared).real();
 }
 
-/// Heights of the waves of the continuum with the same base state, D = k, and of the lattice, in units of c_p/Δp.
+/// The waves of the lattice and those of the continuum with the same base state, as heights of curves with fixed names.
+/// Those of `tl-linear` by their branch, D = k in the continuum.
 template <int Dim>
-class Heights {
+class LinearBands {
  public:
-  explicit Heights(const Problem<Dim>& problem)
-      : relation_(problem),
-        continuum_(problem, Tensor<Dim>::Identity()),
-        steps_(problem),
-        unit_(std::sqrt(problem.material.lame(problem.plane).p_wave_modulus() / problem.material.density()) /
-              problem.lattice.spacing()) {}
+  using Heights = std::vector<double>;
 
-  double of_lattice(analysis::Branch branch, const Vector<Dim>& k) const {
-    const auto waves = relation_(k);
-    const auto wave = std::find_if(waves.begin(), waves.end(), [=](const auto& w) { return w.branch == branch; });
-    return height(wave->omega_squared.real(), wave->growth_rate) / unit_;
+  explicit LinearBands(const Problem<Dim>& problem)
+      : relation_(problem), continuum_(problem, Tensor<Dim>::Identity()), steps_(problem) {}
+
+  std::vector<std::string> names() const {
+    if (Dim == 1) return {"longitudinal"};
+    return {"longitudinal", Dim == 3 ? "transverse (two branches)" : "transverse"};
   }
-  double of_continuum(analysis::Branch branch, const Vector<Dim>& k) const {
-    const double omega_squared =
-        branch == analysis::Branch::longitudinal ? continuum_.longitudinal(k) : continuum_.transverse(k);
-    return height(omega_squared, steps_(omega_squared).continuous_growth_rate()) / unit_;
+  std::vector<std::string> continuum_names() const {
+    return Dim == 1 ? std::vector<std::string>{"longitudinal"} : std::vector<std::string>{"longitudinal", "transverse"};
+  }
+  Heights of_lattice(const Vector<Dim>& k) const {
+    Heights heights;
+    const auto waves = relation_(k);
+    for (const auto branch : branches()) {
+      const auto wave = std::find_if(waves.begin(), waves.end(), [=](const auto& w) { return w.branch == branch; });
+      heights.push_back(height(wave->omega_squared, wave->growth_rate));
+    }
+    return heights;
+  }
+  Heights of_continuum(const Vector<Dim>& k) const {
+    Heights heights;
+    for (const auto branch : branches()) {
+      const bool longitudinal = branch == analysis::Branch::longitudinal;
+      const double omega_squared = longitudinal ? continuum_.longitudinal(k) : continuum_.transverse(k);
+      heights.push_back(height(omega_squared, steps_(omega_squared).continuous_growth_rate()));
+    }
+    return heights;
   }
 
  private:
+  static std::vector<analysis::Branch> branches() {
+    using enum analysis::Branch;
+    return Dim == 1 ? std::vector{longitudinal} : std::vector{longitudinal, transverse};
+  }
+
   analysis::DispersionRelation<Dim> relation_;
   analysis::AcousticForm<Dim> continuum_;
   analysis::ModeSteps steps_;
-  double unit_;
 };
 
-/// The curve of `height_at` along the path, with gaps at its breaks.
-template <int Dim, class Height>
-io::Curve curve_along(const PathPoints<Dim>& points, const Height& height_at) {
-  io::Curve curve;
-  for (const auto& run : points) {
-    for (const auto& at : run) curve.points.emplace_back(at.distance, height_at(at.wave_vector));
-    curve.points.emplace_back(run.back().distance, std::numeric_limits<double>::quiet_NaN());
+/// Those of `ul`, whose branches have no fixed kind, in the order of ω²; then the growth rate of a complex pair, which
+/// has a frequency too.
+template <int Dim>
+class UpdatedBands {
+ public:
+  using Heights = std::vector<double>;
+
+  explicit UpdatedBands(const Problem<Dim>& problem) : problem_(problem), relation_(problem) {}
+
+  std::vector<std::string> names() const {
+    auto names = continuum_names();
+    names.emplace_back("growth rate of a coupled pair");
+    return names;
   }
-  return curve;
+  std::vector<std::string> continuum_names() const {
+    std::vector<std::string> names;
+    for (int i = 1; i <= Dim; ++i) names.push_back(fmt::format("branch {}", i));
+    return names;
+  }
+  Heights of_lattice(const Vector<Dim>& k) const {
+    Heights heights;
+    double growth_of_pair = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& wave : relation_(k)) {
+      heights.push_back(height(wave.omega_squared, wave.growth_rate));
+      if (wave.branch == analysis::Branch::coupled) growth_of_pair = -wave.growth_rate;
+    }
+    heights.push_back(growth_of_pair);
+    return heights;
+  }
+  Heights of_continuum(const Vector<Dim>& k) const {
+    Heights heights;
+    for (const auto omega_squared : analysis::squared_frequencies<Dim>(analysis::continuum_matrix(problem_, k), 0.0))
+      heights.push_back(height(omega_squared, analysis::growth_rate_of(omega_squared)));
+    return heights;
+  }
+
+ private:
+  Problem<Dim> problem_;
+  analysis::DispersionRelation<Dim> relation_;
+};
+
+/// One curve for each name along the path, with gaps at its breaks, in units of `unit`. Curves without a point are left
+/// out.
+template <int Dim, class HeightsAt>
+std::vector<io::Curve> curves_along(const PathPoints<Dim>& points, const std::vector<std::string>& names, double unit,
+                                    const HeightsAt& heights_at) {
+  std::vector<io::Curve> curves;
+  for (const auto& name : names) curves.push_back({.label = name, .points = {}});
+  for (const auto& run : points) {
+    for (const auto& at : run) {
+      const auto heights = heights_at(at.wave_vector);
+      for (std::size_t i = 0; i < curves.size(); ++i) curves[i].points.emplace_back(at.distance, heights[i] / unit);
+    }
+    for (auto& curve : curves) curve.points.emplace_back(run.back().distance, std::numeric_limits<double>::quiet_NaN());
+  }
+  std::erase_if(curves, [](const io::Curve& curve) {
+    return std::none_of(curve.points.begin(), curve.points.end(),
+                        [](const auto& p) { return std::isfinite(p.second); });
+  });
+  return curves;
 }
 
 /// Gaps where a curve leaves what the others need.
@@ -237,50 +308,43 @@ std::vector<io::Mark> marks_of(const PathPoints<Dim>& points) {
   return marks;
 }
 
-template <int Dim>
-std::string title_of(const Problem<Dim>& problem) {
-  const bool strained = problem.scheme.momentum_density == MomentumDensity::equation_of_state &&
-                        !problem.displacement_gradient.isZero(0.0);
-  return fmt::format("Bands of the {} lattice{}: {}, h = {:.4g} Δp{}, {}, ν = {:.4g}", name_of(problem.lattice.kind()),
-                     strained ? ", strained" : "", name_of(problem.kernel.family()),
-                     problem.kernel.smoothing_length() / problem.lattice.spacing(),
-                     problem.neighbour_rule == NeighbourRule::nearest ? ", nearest neighbours" : "",
-                     name_of(problem.scheme.formulation), problem.material.poisson_ratio());
-}
-
-template <int Dim>
-io::LineFigure band_figure(const Case& input) {
-  using analysis::Branch;
-  const auto problem = make_problem<Dim>(input);
+template <int Dim, class Bands>
+io::LineFigure band_figure(const Case& input, const Problem<Dim>& problem, const Bands& bands) {
   const auto points = path_points(input, problem.lattice);
-  const Heights<Dim> heights(problem);
-  const std::vector<Branch> branches =
-      Dim == 1 ? std::vector{Branch::longitudinal} : std::vector{Branch::longitudinal, Branch::transverse};
-
+  const double unit = p_wave_speed(problem) / problem.lattice.spacing();
   io::LineFigure figure;
+  figure.curves = curves_along(points, bands.names(), unit, [&](const auto& k) { return bands.of_lattice(k); });
   double low = 0.0, high = 0.0;
-  for (const Branch branch : branches) {
-    figure.curves.push_back(curve_along(points, [&](const Vector<Dim>& k) { return heights.of_lattice(branch, k); }));
-    figure.curves.back().label =
-        fmt::format("{}{}", name_of(branch), Dim == 3 && branch == Branch::transverse ? " (two branches)" : "");
-    for (const auto& [distance, height] : figure.curves.back().points) {
+  for (const auto& curve : figure.curves)
+    for (const auto& [distance, height] : curve.points) {
       low = std::fmin(low, height);
       high = std::fmax(high, height);
     }
-  }
-  for (const Branch branch : branches) {
-    auto curve = curve_along(points, [&](const Vector<Dim>& k) { return heights.of_continuum(branch, k); });
+  for (auto& curve :
+       curves_along(points, bands.continuum_names(), unit, [&](const auto& k) { return bands.of_continuum(k); })) {
     clip(curve, low, high);
-    curve.label = fmt::format("{} in the continuum", name_of(branch));
+    curve.label += " in the continuum";
     curve.style = io::CurveStyle::dashed;
     figure.curves.push_back(std::move(curve));
   }
-  figure.title = title_of(problem);
+  figure.title = "Bands of " + title_of(problem);
   figure.x_label = "wave vector along the path";
   figure.y_label = low < 0.0 ? "ω Δp / c_p; below zero the growth rate" : "ω Δp / c_p";
   figure.x_ticks = marks_of(points);
   for (const auto& tick : figure.x_ticks) figure.vertical_lines.push_back({tick.x, ""});
   return figure;
+}
+
+template <int Dim>
+io::LineFigure band_figure(const Case& input) {
+  const auto problem = make_problem<Dim>(input);
+  switch (problem.scheme.formulation) {
+    case Formulation::total_lagrangian_linear:
+      return band_figure(input, problem, LinearBands<Dim>(problem));
+    case Formulation::updated_lagrangian:
+      break;
+  }
+  return band_figure(input, problem, UpdatedBands<Dim>(problem));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "analysis/critical_step.hpp"
 #include "analysis/gradient_symbol.hpp"
 #include "study/json_values.hpp"
+#include "study/p_wave_speed.hpp"
 
 namespace sphstab::study {
 namespace {
@@ -63,9 +64,7 @@ template <int Dim>
 std::string worst_mode(const Problem<Dim>& problem, const analysis::CriticalMode<Dim>& mode) {
   const double wavelength = 2.0 * std::numbers::pi / mode.wave_vector.norm();
   return fmt::format("k = {}, {}, {:.4g} spacings long; the displacements of its wave from particle to particle:",
-                     list_of<Dim>(mode.wave_vector),
-                     mode.branch == analysis::Branch::longitudinal ? "longitudinal" : "transverse",
-                     wavelength / problem.lattice.spacing());
+                     list_of<Dim>(mode.wave_vector), name_of(mode.branch), wavelength / problem.lattice.spacing());
 }
 
 /// |L − I| of the consistency of the gradient: the relative error of the speed of long waves.
@@ -88,7 +87,7 @@ template <int Dim>
 std::optional<Change> change(const Case& changed, const std::string& what, double limit, double allowed_error) {
   const auto other = make_problem<Dim>(changed);
   if (long_wave_error(other) > allowed_error) return std::nullopt;
-  const auto found = analysis::BulkModes<Dim>(other).limit();
+  const auto found = analysis::bulk_limit(other);
   const auto* const stable = std::get_if<analysis::ConditionallyStable<Dim>>(&found);
   if (stable == nullptr) return std::nullopt;
   return Change{what, stable->critical_time_step / limit, neighbours_of(other).size()};
@@ -143,71 +142,149 @@ std::vector<std::string> integrator_and_limit(const Problem<Dim>& problem, doubl
   if (problem.integrator == Integrator::verlet && std::abs(rate * step - 4.0) < same_step)
     return {line("Integrator", fmt::format("{} bears no damping beyond rate x dt = 4, whatever the mode", name)),
             line("Limit", fmt::format("dt = 4 / {:g} = {:.8g}", rate, step))};
+  const bool neutral = problem.integrator == Integrator::leapfrog || problem.integrator == Integrator::verlet;
+  const std::string friction = problem.scheme.viscosity
+                                   ? fmt::format(" with viscosity alpha = {:g}", problem.scheme.viscosity->alpha)
+                               : rate != 0.0 ? fmt::format(" with the damping rate {:g}", rate)
+                                             : "";
   const std::string rule =
-      rate == 0.0
+      neutral && friction.empty()
           ? fmt::format("{} makes each mode a 2x2 map whose eigenvalues stay on the unit circle while omega dt <= 2",
                         name)
-          : fmt::format(
-                "{} with the damping rate {:g}: an eigenvalue of the worst mode's map passes -1 at omega "
-                "dt = {:.6g}",
-                name, rate, omega * step);
+          : fmt::format("{}{}: an eigenvalue of the worst mode's map passes {} at omega dt = {:.6g}", name, friction,
+                        problem.scheme.viscosity || !neutral ? "the unit circle" : "-1", omega * step);
   return {line("Integrator", rule), line("Limit", fmt::format("dt = {:.4g} / omega = {:.8g}", omega * step, step))};
+}
+
+/// Components of a symmetric tensor in the order of the keys.
+template <int Dim>
+std::string list_of_tensor(const Tensor<Dim>& tensor) {
+  return list_of<symmetric_size<Dim>>(symmetric_components<Dim, double>(tensor));
+}
+
+template <int Dim>
+std::string base_state(const Problem<Dim>& problem) {
+  if (problem.pressure == 0.0 && problem.deviatoric_stress.isZero(0.0))
+    return "no stress: stress alone resists a wave, through A(k), which takes the place of -k in the particle sums";
+  const auto& artificial = problem.scheme.artificial_stress;
+  return fmt::format("pressure {:g}, deviatoric stress {}, {}: stress makes forces of moved particles, through B(k)",
+                     problem.pressure, list_of_tensor<Dim>(problem.deviatoric_stress),
+                     artificial ? fmt::format("artificial stress of epsilon = {:g}", artificial->epsilon)
+                                : std::string("no artificial stress"));
+}
+
+/// What stands between the neighbours and the worst mode.
+template <int Dim>
+std::string sums_line(const Problem<Dim>& problem) {
+  const double error = 100.0 * long_wave_error(problem);
+  if (problem.scheme.formulation == Formulation::updated_lagrangian)
+    return line("State", fmt::format("{}; long waves are off by {:.2g} %", base_state(problem), error));
+  const double maximum = analysis::BulkModes<Dim>(problem).symbol_maximum();
+  return line("Symbol", fmt::format("the particle sums see D(k) in place of k: off by {:.2g} % for long waves, |D| <= "
+                                    "{:.6g} = {:.4g} / spacing for all",
+                                    error, maximum, maximum * problem.lattice.spacing()));
+}
+
+template <int Dim>
+std::string scheme_line(const Problem<Dim>& problem) {
+  const auto name = name_of(problem.scheme.formulation);
+  if (problem.scheme.formulation == Formulation::updated_lagrangian)
+    return line("Scheme", fmt::format("{}: a wave r exp(ik.x) of the particles about a uniform stress obeys "
+                                      "d2r/dt2 = -M(k) r{}",
+                                      name, problem.scheme.viscosity ? ", and viscosity damps it" : ""));
+  return line("Scheme", fmt::format("{}: a wave s exp(ik.x) of small displacements obeys d2s/dt2 = -M(k) s", name));
+}
+
+/// The lines on a mode that limits the step.
+template <int Dim>
+std::vector<std::string> limit_lines(const Case& input, const Problem<Dim>& problem,
+                                     const analysis::ConditionallyStable<Dim>& stable) {
+  const double step = stable.critical_time_step, omega = stable.mode.omega;
+  const double time_unit = problem.lattice.spacing() / p_wave_speed(problem);
+  const bool largest = !problem.scheme.viscosity;
+  std::vector<std::string> lines{
+      line("Frequency", fmt::format("omega = {:.6g}{}: {:.4g} times p-wave speed / spacing", omega,
+                                    largest ? ", the largest of all modes" : "", omega * time_unit))};
+  for (auto& one : integrator_and_limit(problem, omega, step)) lines.push_back(std::move(one));
+  lines.back() += fmt::format("; Courant number dt c_p / spacing = {:.6g}", step / time_unit);
+  lines.push_back(line("To raise it", advice(input, problem, step)));
+  return lines;
+}
+
+/// Growth per step that nobody notices in a run of some thousand steps.
+constexpr double quiet_growth = 1e-4;
+
+/// What a neutral integrator would bear.
+template <int Dim>
+std::string neutral_integrators(Problem<Dim> problem) {
+  problem.integrator = Integrator::leapfrog;
+  const auto limit = analysis::bulk_limit(problem);
+  const auto* const stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit);
+  return fmt::format("leapfrog and verlet do not grow at all{}; viscosity_alpha > 0 damps the worst modes",
+                     stable ? fmt::format(" up to dt = {:.6g}", stable->critical_time_step) : "");
+}
+
+template <int Dim>
+std::vector<std::string> weak_lines(const Problem<Dim>& problem, const analysis::WeaklyUnstable<Dim>& weak) {
+  const double quiet_step = std::pow(quiet_growth / weak.coefficient, 1.0 / weak.exponent);
+  return {
+      line("Frequency", fmt::format("omega = {:.6g}; in continuous time nothing grows", weak.mode.omega)),
+      line("Integrator", fmt::format("{} predicts density and stress to first order only: the error of a step "
+                                     "feeds the wave, whatever the step",
+                                     name_of(problem.integrator))),
+      line("Limit", fmt::format("none; a short step multiplies the worst mode by 1 + {:.4g} dt^{}: {:g} per step at "
+                                "dt = {:.4g}, a factor e in {:.0f} steps",
+                                weak.coefficient, weak.exponent, quiet_growth, quiet_step, 1.0 / quiet_growth)),
+      line("To cure it", neutral_integrators(problem))};
+}
+
+template <int Dim>
+std::vector<std::string> growth_lines(const Problem<Dim>& problem, const analysis::NeverStable<Dim>& unstable) {
+  const bool updated = problem.scheme.formulation == Formulation::updated_lagrangian;
+  return {
+      line("Growth", fmt::format("{}the base state makes the mode grow by exp({:.6g} t) in continuous time",
+                                 updated ? "" : fmt::format("omega^2 = -{:.6g}: ", std::pow(unstable.mode.omega, 2)),
+                                 unstable.growth_rate)),
+      line("Limit", fmt::format("no time step is stable; the base state has to change, not the step{}",
+                                updated ? ". `sphstab growth` says which artificial stress removes the growth" : ""))};
 }
 
 template <int Dim>
 std::vector<std::string> explain(const Case& input) {
   const auto problem = make_problem<Dim>(input);
   const auto neighbours = neighbours_of(problem);
-  const analysis::BulkModes<Dim> modes(problem);
-  const LameConstants lame = problem.material.lame(problem.plane);
-  const double rho = problem.material.density(), spacing = problem.lattice.spacing();
-  const double p_wave_speed = std::sqrt(lame.p_wave_modulus() / rho);
-  const double h = problem.kernel.smoothing_length();
-
+  const double rho = problem.material.density(), h = problem.kernel.smoothing_length();
   std::vector<std::string> lines{
-      line("Scheme", fmt::format("{}: a wave s exp(ik.x) of small displacements obeys d2s/dt2 = -M(k) s",
-                                 name_of(problem.scheme.formulation))),
-      line("Material", fmt::format("density {:g}, p-wave speed {:.5g}, s-wave speed {:.5g}", rho, p_wave_speed,
-                                   std::sqrt(lame.shear_modulus / rho))),
+      scheme_line(problem),
+      line("Material", fmt::format("density {:g}, p-wave speed {:.5g}, s-wave speed {:.5g}", rho, p_wave_speed(problem),
+                                   std::sqrt(problem.material.shear_modulus() / rho))),
       line("Neighbours",
            fmt::format(
                "{} on the {} lattice, from {:.4g} to {:.4g} away; the {} with h = {:.4g} spacings ends at {:.4g}",
                neighbours.size(), name_of(problem.lattice.kind()), neighbours.front().distance,
-               neighbours.back().distance, name_of(problem.kernel.family()), h / spacing, problem.kernel.support())),
-      line("Symbol",
-           fmt::format("the particle sums see D(k) in place of k: off by {:.2g} % for long waves, |D| <= {:.6g} "
-                       "= {:.4g} / spacing for all",
-                       100.0 * long_wave_error(problem), modes.symbol_maximum(), modes.symbol_maximum() * spacing))};
-  const auto explain_mode = [&](const analysis::CriticalMode<Dim>& mode) {
-    lines.push_back(line("Worst mode", worst_mode(problem, mode)));
-    lines.push_back(line("", waves(problem, mode.wave_vector)));
+               neighbours.back().distance, name_of(problem.kernel.family()), h / problem.lattice.spacing(),
+               problem.kernel.support())),
+      sums_line(problem)};
+  const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
+  const auto add_mode = [&](const analysis::CriticalMode<Dim>& mode) {
+    add({line("Worst mode", worst_mode(problem, mode)), line("", waves(problem, mode.wave_vector))});
   };
-  std::visit(
-      Overloaded{
-          [&](const analysis::ConditionallyStable<Dim>& stable) {
-            const double step = stable.critical_time_step, omega = stable.mode.omega;
-            explain_mode(stable.mode);
-            lines.push_back(
-                line("Frequency",
-                     fmt::format("omega = {:.6g}, the largest of all modes: {:.4g} times p-wave speed / spacing", omega,
-                                 omega * spacing / p_wave_speed)));
-            for (auto& one : integrator_and_limit(problem, omega, step)) lines.push_back(std::move(one));
-            lines.back() += fmt::format("; Courant number dt c_p / spacing = {:.6g}", step * p_wave_speed / spacing);
-            lines.push_back(line("To raise it", advice(input, problem, step)));
-          },
-          [&](const analysis::UnconditionallyStable&) {
-            lines.push_back(line("Limit", "no mode has a restoring force, so that no step is too long"));
-          },
-          [&](const analysis::NeverStable<Dim>& unstable) {
-            explain_mode(unstable.mode);
-            lines.push_back(line(
-                "Growth",
-                fmt::format("omega^2 = -{:.6g}: the base state makes the mode grow by exp({:.6g} t) in continuous time",
-                            unstable.mode.omega * unstable.mode.omega, unstable.growth_rate)));
-            lines.push_back(line("Limit", "no time step is stable; the base state has to change, not the step"));
-          },
-          [&](const analysis::WeaklyUnstable<Dim>& weak) { explain_mode(weak.mode); }},
-      modes.limit());
+  std::visit(Overloaded{[&](const analysis::ConditionallyStable<Dim>& stable) {
+                          add_mode(stable.mode);
+                          add(limit_lines(input, problem, stable));
+                        },
+                        [&](const analysis::UnconditionallyStable&) {
+                          add({line("Limit", "no mode has a restoring force, so that no step is too long")});
+                        },
+                        [&](const analysis::NeverStable<Dim>& unstable) {
+                          add_mode(unstable.mode);
+                          add(growth_lines(problem, unstable));
+                        },
+                        [&](const analysis::WeaklyUnstable<Dim>& weak) {
+                          add_mode(weak.mode);
+                          add(weak_lines(problem, weak));
+                        }},
+             analysis::bulk_limit(problem));
   return lines;
 }
 

@@ -9,8 +9,9 @@
 namespace sphstab::study {
 
 /// `dt --explain`: ten lines that lead from the scheme to its limit with the numbers of this case: material,
-/// neighbours, symbol, worst mode with a drawing of its wave, frequency, integrator, limit, and which other kernel or
-/// smoothing length would raise it most. Throws InvalidInput as `dt` does.
+/// neighbours, symbol (or, in `ul`, base state), worst mode with a drawing of its wave, frequency, integrator, limit or
+/// law of growth, and what would help: another kernel, smoothing length or integrator. Fewer where no step is stable.
+/// Throws InvalidInput as `dt` does.
 std::vector<std::string> explain_time_step(const Case& input);
 
 }  // namespace sphstab::study

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "analysis/critical_step.hpp"
 #include "model/tensor.hpp"
 #include "study/request.hpp"
 
@@ -43,6 +44,11 @@ Json rows(const Tensor<Dim>& tensor) {
   Json list = Json::array();
   for (int i = 0; i < Dim; ++i) list.push_back(components<Dim>(tensor.row(i)));
   return list;
+}
+
+template <int Dim>
+Json mode_json(const analysis::CriticalMode<Dim>& mode) {
+  return {{"wave_vector", components<Dim>(mode.wave_vector)}, {"branch", name_of(mode.branch)}, {"omega", mode.omega}};
 }
 
 inline Json complex_pair(std::complex<double> value) { return {value.real(), value.imag()}; }

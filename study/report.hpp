@@ -54,4 +54,7 @@ Report body_report(const Progress& progress);
 /// against finite elements.
 Report natural_frequency_report(const Progress& progress);
 
+/// Swegle's criterion on a chain beside what all neighbours do at k = π/Δp and at any k.
+Report swegle_report(const Progress& progress);
+
 }  // namespace sphstab::study

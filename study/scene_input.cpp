@@ -12,6 +12,11 @@ bool names_body(const Case& input) { return input.has("plate") || input.has("sce
 template <int Dim>
 Scene<Dim> make_scene(const Case& input) {
   if (!names_body(input)) throw InvalidInput("scene: missing (or plate)");
+  if (const auto name = input.word("scheme")) {
+    Scheme scheme;
+    scheme.formulation = from_name<Formulation>("scheme", *name);
+    require_total_lagrangian(scheme, "a plate or scene");
+  }
   if (input.has("scene")) {
     if (input.has("plate")) throw InvalidInput("plate: cannot be given with scene");
     return io::read_scene<Dim>(input);

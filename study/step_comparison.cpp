@@ -80,7 +80,7 @@ TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& cho
 
 template <int Dim>
 std::optional<double> bulk_step(const Problem<Dim>& problem) {
-  return step_of<Dim>(analysis::BulkModes(problem).limit());
+  return step_of<Dim>(analysis::bulk_limit(problem));
 }
 
 template <int Dim>
@@ -110,6 +110,7 @@ solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const
 template <int Dim>
 StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,
                             const GrowthProbe& probe) {
+  require_total_lagrangian(problem.scheme, "bisect");
   if (std::holds_alternative<Body<Dim>>(choice) && !problem.displacement_gradient.isZero())
     throw InvalidInput("displacement_gradient: a body takes none, it would not be in equilibrium");
   const auto body = make_body(problem, choice);

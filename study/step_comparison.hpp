@@ -66,7 +66,8 @@ solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const
 
 /// Finds the critical step by running the solver with `probe` if given (a foreign solver), ours otherwise, and sets
 /// theory beside it. Where theory says that every step grows, one small step is run for as long as that growth needs to
-/// show. Throws InvalidInput (`displacement_gradient`) for a body with a base state, which is no equilibrium there.
+/// show. Throws InvalidInput (`displacement_gradient`) for a body with a base state, which is no equilibrium there, and
+/// (`scheme`) for `ul`.
 template <int Dim>
 StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,
                             const GrowthProbe& probe = nullptr);

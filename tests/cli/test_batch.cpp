@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <Eigen/Core>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <complex>
+#include <limits>
 #include <numbers>
 
 #include "cli/program.hpp"
@@ -41,7 +45,75 @@ std::string error_of_line(const std::string& line) {
   return answers[0]["error"];
 }
 
+/// det(x − E) by the method of Faddeev and Le Verrier, highest power first.
+std::vector<std::complex<double>> characteristic_polynomial(const Json& rows) {
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXcd E(size, size);
+  for (Eigen::Index i = 0; i < size; ++i)
+    for (Eigen::Index j = 0; j < size; ++j) E(i, j) = std::complex<double>(rows[i][j][0], rows[i][j][1]);
+  std::vector<std::complex<double>> coefficients{1.0};
+  Eigen::MatrixXcd power = Eigen::MatrixXcd::Zero(size, size);
+  for (Eigen::Index n = 1; n <= size; ++n) {
+    power = (E * power).eval() + coefficients.back() * Eigen::MatrixXcd::Identity(size, size);
+    coefficients.push_back(-(E * power).trace() / static_cast<double>(n));
+  }
+  return coefficients;
+}
+
+/// The measure of the reference cases: |difference| / max(1, |value|), of polynomials up to their conjugates.
+double difference(std::complex<double> ours, std::complex<double> theirs) {
+  return std::abs(ours - theirs) / std::max(1.0, std::abs(theirs));
+}
+
+std::complex<double> complex(const Json& pair) { return {pair[0].get<double>(), pair[1].get<double>()}; }
+
+double difference_of_polynomials(const std::vector<std::complex<double>>& ours, const Json& theirs) {
+  if (ours.size() != theirs.size()) return std::numeric_limits<double>::infinity();
+  double same = 0.0, conjugate = 0.0;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    same = std::max(same, difference(ours[i], complex(theirs[i])));
+    conjugate = std::max(conjugate, difference(std::conj(ours[i]), complex(theirs[i])));
+  }
+  return std::min(same, conjugate);
+}
+
+void check_expected(const std::string& key, const Json& expected, const Json& result, double tolerance) {
+  INFO(key << ": expected " << expected);
+  if (key == "characteristic_polynomial") {
+    CHECK(difference_of_polynomials(characteristic_polynomial(result["amplification_matrix"]), expected) <= tolerance);
+  } else if (key == "omega_squared") {
+    const Json& found = result["points"][0]["omega_squared"];
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      CHECK(difference(complex(found[i]), complex(expected[i])) <= tolerance);
+  } else {
+    REQUIRE(result.contains(key));
+    REQUIRE(result[key].is_number());
+    const double found = result[key], wanted = expected;
+    if (key == "critical_time_step")
+      CHECK(std::abs(found / wanted - 1.0) <= tolerance);
+    else
+      CHECK(difference(found, wanted) <= tolerance);
+  }
+}
+
 }  // namespace
+
+TEST_CASE("every reference line of ul is answered within its tolerance", "[fast]") {
+  const std::string lines = io::read_file(SPHSTAB_GOLDEN_FOLDER "/ul_cases.jsonl");
+  const auto answers = batch(lines);
+  const auto references = lines_of(lines);
+  REQUIRE(references.size() == 102);
+  REQUIRE(answers.size() == references.size());
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const Json reference = Json::parse(references[i]);
+    INFO(answers[i].dump());
+    REQUIRE(answers[i]["id"] == reference["id"]);
+    REQUIRE(answers[i]["ok"] == true);
+    for (const auto& [key, expected] : reference["expect"].items())
+      check_expected(key, expected, answers[i]["result"], reference["tolerance"]);
+  }
+}
 
 TEST_CASE("bad lines of a batch never stop the others, and every id comes back with its answer", "[fast]") {
   const auto answers = batch(

@@ -87,6 +87,35 @@ class Environment {
   std::string before_;
 };
 
+/// 3 × 2 cells of values 0 … 5.
+MapFigure map() {
+  return {.title = "Growth over the zone",
+          .x_label = "k_x",
+          .y_label = "k_y",
+          .value_label = "growth rate",
+          .x = {-1.0, 0.0, 1.0},
+          .y = {0.0, 1.0},
+          .values = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0},
+          .blank_label = "stable",
+          .outlines = {{"zone", {{-1.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}}}}};
+}
+
+/// Where the picture of the cells stands, in pixels, and its PNG in base 64.
+struct Picture {
+  double x, y, width, height;
+  std::string data;
+};
+
+Picture picture(const std::string& svg) {
+  const std::regex pattern("<image x='([\\d.]+)' y='([\\d.]+)' width='([\\d.]+)' height='([\\d.]+)'");
+  std::smatch match;
+  REQUIRE(std::regex_search(svg, match, pattern));
+  const auto begin = svg.find("base64,", match.position());
+  REQUIRE(begin != std::string::npos);
+  return {std::stod(match[1]), std::stod(match[2]), std::stod(match[3]), std::stod(match[4]),
+          svg.substr(begin, svg.find("'", begin) - begin)};
+}
+
 }  // namespace
 
 TEST_CASE("a figure is a whole SVG with every label", "[fast]") {
@@ -222,6 +251,47 @@ TEST_CASE("particles that are not finite are left out", "[fast]") {
   const auto drawn = markers(render_svg(figure), "gpPt6");
   REQUIRE(drawn.size() == 10);
   CHECK(drawn.back().x == whole.back().x);
+}
+
+TEST_CASE("a map has its cells, its outlines and every label", "[fast]") {
+  const std::string svg = render_svg(map());
+  CHECK_THAT(svg, Contains("<svg") && EndsWith("</svg>\n\n"));
+  for (const auto* label : {"Growth over the zone", "k_x", "k_y", "growth rate", "stable", "zone"})
+    CHECK_THAT(svg, Contains(">" + std::string(label) + "<"));
+  CHECK(render_svg(map()) == svg);
+  const std::string data = picture(svg).data;
+  MapFigure changed = map();
+  changed.values[4] = 1.0;
+  CHECK(picture(render_svg(changed)).data != data);
+  changed = map();
+  changed.value_range = {0.0, 50.0};
+  CHECK(picture(render_svg(changed)).data != data);
+  changed = map();
+  changed.outlines[0].points[2].second = 0.5;
+  const std::string moved = render_svg(changed);
+  CHECK(picture(moved).data == data);
+  CHECK(moved != svg);
+}
+
+TEST_CASE("a cell that is not finite leaves the hatching of its label", "[fast]") {
+  MapFigure figure = map();
+  const std::string whole = render_svg(figure);
+  figure.values[1] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(picture(render_svg(figure)).data != picture(whole).data);
+  figure.values.assign(6, std::numeric_limits<double>::quiet_NaN());
+  const std::string blank = render_svg(figure);  // neither cells nor a colour bar
+  CHECK_THAT(blank, !Contains("<image") && !Contains("growth rate") && Contains(">stable<") && Contains(">zone<"));
+}
+
+TEST_CASE("the cells of a map can have equal units", "[fast]") {
+  constexpr double pixel = 0.02;  // gnuplot writes hundredths
+  MapFigure figure = map();
+  figure.equal_units = true;
+  const Picture square = picture(render_svg(figure));
+  CHECK(square.width / 3.0 == Approx(square.height / 2.0).margin(pixel));
+  figure.equal_units = false;
+  const Picture stretched = picture(render_svg(figure));
+  CHECK(stretched.height > 1.2 * square.height);
 }
 
 TEST_CASE("a missing gnuplot is named with the package that brings it", "[fast]") {

@@ -22,6 +22,14 @@ Case complete_with(std::string_view key, std::string_view text) {
   return input;
 }
 
+/// A complete case of `ul` in two dimensions, with more keys.
+Case updated(std::initializer_list<std::pair<std::string_view, std::string_view>> more = {}) {
+  return read({{"scheme", "ul"}, {"sound_speed", "1.5"}, {"shear_modulus", "0.3"}, {"density", "2"}}).under(read(more));
+}
+
+/// Products and sums of a few doubles.
+constexpr double rounding = 1e-15;
+
 }  // namespace
 
 TEST_CASE("defaults of the key table parse and pass their own checks", "[fast]") {
@@ -136,4 +144,133 @@ TEST_CASE("keys of paths and grids have their limits", "[fast]") {
   CHECK(Case().number("path_points") == 200.0);
   CHECK_THROWS_WITH(read({{"path_points", "1"}}), "path_points: 1 is not at least 2");
   CHECK_THROWS_WITH(read({{"grid", "4,0"}}), "grid: 0 is not at least 1");
+}
+
+TEST_CASE("a problem of ul is made of its keys and their defaults", "[fast]") {
+  const auto problem = make_problem<2>(updated());
+  CHECK(problem.scheme.formulation == Formulation::updated_lagrangian);
+  CHECK(problem.integrator == Integrator::predictor_corrector);
+  CHECK(problem.pressure == 0.0);
+  CHECK(problem.deviatoric_stress.isZero(0.0));
+  CHECK_FALSE(problem.scheme.artificial_stress);
+  CHECK_FALSE(problem.scheme.xsph);
+  CHECK_FALSE(problem.scheme.viscosity);
+  CHECK(problem.material.bulk_modulus() == Approx(2.0 * 1.5 * 1.5).epsilon(rounding));  // ρ0 c0²
+  CHECK(problem.material.shear_modulus() == 0.3);
+}
+
+TEST_CASE("every key of ul reaches its problem", "[fast]") {
+  CHECK(make_problem<2>(updated({{"integrator", "leapfrog"}})).integrator == Integrator::leapfrog);
+  CHECK(make_problem<2>(updated({{"integrator", "predictor-corrector-pec"}})).integrator ==
+        Integrator::predictor_corrector_pec);
+  CHECK(make_problem<2>(updated({{"pressure", "-0.05"}})).pressure == -0.05);
+  CHECK(make_problem<2>(updated({{"xsph", "0.5"}})).scheme.xsph->epsilon == 0.5);
+  CHECK(make_problem<2>(updated({{"xsph", "-0.5"}})).scheme.xsph->epsilon == -0.5);
+  const auto viscous = make_problem<2>(updated({{"viscosity_alpha", "0.7"}, {"viscosity_eta", "0.2"}}));
+  CHECK(viscous.scheme.viscosity->alpha == 0.7);
+  CHECK(viscous.scheme.viscosity->eta == 0.2);
+  CHECK(make_problem<2>(updated({{"viscosity_alpha", "0.7"}})).scheme.viscosity->eta == 0.1);
+
+  const auto plain = make_problem<2>(updated({{"artificial_stress_epsilon", "0.3"}}));
+  REQUIRE(plain.scheme.artificial_stress);
+  CHECK(plain.scheme.artificial_stress->epsilon == 0.3);
+  CHECK(plain.scheme.artificial_stress->exponent == 4.0);
+  CHECK(plain.scheme.artificial_stress->weight == ArtificialStressWeight::kernel_ratio);
+  CHECK(plain.scheme.artificial_stress->linearisation == ArtificialStressLinearisation::exact);
+  CHECK(plain.scheme.artificial_stress->zero_side == ZeroStressSide::compression);
+  const auto other = make_problem<2>(updated({{"artificial_stress_epsilon", "0.3"},
+                                              {"artificial_stress_exponent", "6"},
+                                              {"artificial_stress_weight", "distance-ratio"},
+                                              {"artificial_stress_linearisation", "frozen"},
+                                              {"artificial_stress_zero_side", "tension"}}));
+  CHECK(other.scheme.artificial_stress->exponent == 6.0);
+  CHECK(other.scheme.artificial_stress->weight == ArtificialStressWeight::distance_ratio);
+  CHECK(other.scheme.artificial_stress->linearisation == ArtificialStressLinearisation::frozen);
+  CHECK(other.scheme.artificial_stress->zero_side == ZeroStressSide::tension);
+
+  // Young's modulus and Poisson's ratio, or bulk and shear modulus, do as well as c0.
+  const auto young = read({{"scheme", "ul"}, {"young_modulus", "2.6"}, {"poisson_ratio", "0.3"}});
+  CHECK(make_problem<2>(young).material.shear_modulus() == Approx(1.0).epsilon(rounding));
+  const auto fluid = read({{"scheme", "ul"}, {"sound_speed", "2"}, {"shear_modulus", "0"}});
+  CHECK(make_problem<2>(fluid).material.p_wave_modulus() == 4.0);
+}
+
+TEST_CASE("deviatoric stress is listed as Sxx; Sxx, Syy, Sxy; Sxx, Syy, Szz, Sxy, Syz, Sxz", "[fast]") {
+  const auto stress = [](std::string_view dimension, std::string_view text) {
+    return updated({{"dimension", dimension}, {"deviatoric_stress", text}});
+  };
+  CHECK(make_problem<1>(stress("1", "7")).deviatoric_stress(0, 0) == 7.0);
+  Tensor<2> plane;
+  plane << 1.0, 3.0, 3.0, 2.0;
+  CHECK(make_problem<2>(stress("2", "1,2,3")).deviatoric_stress == plane);
+  Tensor<3> space;
+  space << 1.0, 4.0, 6.0, 4.0, 2.0, 5.0, 6.0, 5.0, 3.0;
+  CHECK(make_problem<3>(stress("3", "1,2,3,4,5,6")).deviatoric_stress == space);
+  CHECK_THROWS_WITH(make_problem<3>(stress("3", "1,2,3")), "deviatoric_stress: has 3 components, but 6 are needed");
+  CHECK_THROWS_WITH(make_problem<2>(stress("2", "1,2,3,4,5,6")),
+                    "deviatoric_stress: has 6 components, but 3 are needed");
+}
+
+TEST_CASE("a deformation gradient moves the sites of the lattice and nothing else", "[fast]") {
+  const auto input = updated({{"spacing", "0.5"}, {"deformation_gradient", "1.05,0.2,0.1,0.9"}, {"pressure", "-0.1"}});
+  const auto problem = make_problem<2>(input);
+  // F, row by row, times the primitive vectors (½, 0) and (0, ½).
+  CHECK((problem.lattice.primitive_vectors().col(0) - Vector<2>(0.525, 0.05)).norm() < rounding);
+  CHECK((problem.lattice.primitive_vectors().col(1) - Vector<2>(0.1, 0.45)).norm() < rounding);
+  CHECK(problem.lattice.cell_volume() == Approx(0.25 * (1.05 * 0.9 - 0.2 * 0.1)).epsilon(rounding));
+  CHECK(problem.lattice.spacing() == 0.5);
+  CHECK(problem.kernel.smoothing_length() == 0.65);
+  CHECK(problem.pressure == -0.1);  // which nothing but its key sets
+  CHECK(problem.material.density() == 2.0);
+  CHECK_THROWS_WITH(make_problem<2>(updated({{"deformation_gradient", "1,0,0,-1"}})),
+                    "deformation_gradient: its determinant -1 is not above 0");
+  CHECK_THROWS_WITH(make_problem<2>(updated({{"deformation_gradient", "1.1"}})),
+                    "deformation_gradient: has 1 components, but 4 are needed");
+}
+
+TEST_CASE("keys of another scheme are refused unless they switch nothing on", "[fast]") {
+  for (const auto& [key, text] : {std::pair{"density_in_momentum", "equation-of-state"},
+                                  {"displacement_gradient", "0.1,0,0,0"},
+                                  {"kernel_normalisation", "sum"},
+                                  {"damping_rate", "0.1"},
+                                  {"plane", "stress"}})
+    CHECK_THROWS_WITH(make_problem<2>(updated({{key, text}})),
+                      std::string(key) + ": is for the scheme tl-linear, not ul");
+  for (const auto& [key, text] : {std::pair{"deformation_gradient", "1.1,0,0,1"},
+                                  {"pressure", "0.1"},
+                                  {"deviatoric_stress", "0,0,0.1"},
+                                  {"artificial_stress_epsilon", "0.3"},
+                                  {"xsph", "0.5"},
+                                  {"viscosity_alpha", "1"}})
+    CHECK_THROWS_WITH(make_problem<2>(complete_with(key, text)),
+                      std::string(key) + ": is for the scheme ul, not tl-linear");
+  for (const auto& [key, text] :
+       {std::pair{"displacement_gradient", "0,0,0,0"}, {"damping_rate", "0"}, {"plane", "strain"}})
+    CHECK_NOTHROW(make_problem<2>(updated({{key, text}})));
+  for (const auto& [key, text] : {std::pair{"deformation_gradient", "1,0,0,1"}, {"pressure", "0"}, {"xsph", "0"}})
+    CHECK_NOTHROW(make_problem<2>(complete_with(key, text)));
+  for (const auto* integrator : {"predictor-corrector", "predictor-corrector-pec"})
+    CHECK_THROWS_WITH(make_problem<2>(complete_with("integrator", integrator)),
+                      "integrator: " + std::string(integrator) + " is for the scheme ul only");
+}
+
+TEST_CASE("materials and states of ul that cannot be are refused by name", "[fast]") {
+  for (const auto* key : {"young_modulus", "poisson_ratio"})
+    CHECK_THROWS_WITH(make_problem<2>(updated({{key, "0.3"}})),
+                      std::string(key) + ": cannot be given with shear_modulus");
+  CHECK_THROWS_WITH(make_problem<2>(updated({{"bulk_modulus", "1"}})),
+                    "bulk_modulus: cannot be given with sound_speed");
+  CHECK_THROWS_WITH(make_problem<2>(read({{"scheme", "ul"}, {"sound_speed", "1"}})),
+                    Catch::StartsWith("shear_modulus: missing"));
+  CHECK_THROWS_WITH(make_problem<2>(read({{"scheme", "ul"}, {"bulk_modulus", "1"}, {"shear_modulus", "0"}})),
+                    "shear_modulus: 0 is not a positive finite number");
+  CHECK_THROWS_WITH(make_problem<2>(read({{"scheme", "tl-linear"}, {"sound_speed", "1"}, {"shear_modulus", "1"}})),
+                    "sound_speed: is for the scheme ul, not tl-linear");
+  // ρ0 c0² = 4.5: nothing is left of the density at P = −4.5.
+  CHECK_THROWS_WITH(make_problem<2>(updated({{"pressure", "-4.5"}})),
+                    Catch::StartsWith("pressure: -4.5 leaves no density"));
+  CHECK_NOTHROW(make_problem<2>(updated({{"pressure", "-4.4"}})));
+  CHECK_THROWS_WITH(read({{"artificial_stress_epsilon", "-0.1"}}), "artificial_stress_epsilon: -0.1 is not at least 0");
+  CHECK_THROWS_WITH(read({{"viscosity_alpha", "-1"}}), "viscosity_alpha: -1 is not at least 0");
+  CHECK_THROWS_WITH(read({{"sound_speed", "0"}}), "sound_speed: 0 is not above 0");
 }

@@ -260,3 +260,90 @@ TEST_CASE("the answer of a bisection has every key of the interface", "[fast]") 
   CHECK(answer["patch_deficit"].get<double>() == Approx(theory / bulk - 1.0));
   CHECK(answer["agrees"] == true);
 }
+
+namespace {
+
+Json updated_dt(const Json& more = {}) {
+  Json keys{{"scheme", "ul"}, {"sound_speed", 1.0}, {"shear_modulus", 0.3}, {"h_over_spacing", 1.0}};
+  if (!more.is_null()) keys.update(more);
+  return study::time_step_answer(case_of(keys), {});
+}
+
+}  // namespace
+
+TEST_CASE("dt of ul has every key of the interface that applies to its verdict", "[fast]") {
+  const std::set<std::string> always{"critical_time_step",
+                                     "bracket",
+                                     "verdict",
+                                     "bulk_only",
+                                     "note",
+                                     "neighbours",
+                                     "stressed",
+                                     "zero_energy_modes",
+                                     "zero_energy_modes_complete"};
+  const auto expect_keys = [&always](const Json& answer, const char* verdict, std::set<std::string> more) {
+    more.insert(always.begin(), always.end());
+    CHECK(keys_of(answer) == more);
+    CHECK(answer["verdict"] == verdict);
+  };
+  const Json leapfrog{{"integrator", "leapfrog"}};
+  expect_keys(updated_dt(leapfrog), "conditionally-stable", {"critical_mode", "courant_number", "equivalents"});
+  expect_keys(updated_dt(), "weakly-unstable", {"critical_mode", "growth_law"});
+  CHECK(keys_of(updated_dt()["growth_law"]) == std::set<std::string>{"coefficient", "exponent"});
+  expect_keys(updated_dt({{"time_step", 0.2}, {"steps", 1000}, {"wave_vector", {1, 0}}}), "weakly-unstable",
+              {"critical_mode", "growth_law", "spectral_radius_at_time_step", "growth_per_step_at_time_step",
+               "time_step_for_tolerance", "mode_limit"});
+  expect_keys(updated_dt({{"pressure", -0.05}, {"box", {4, 4}}}), "never-stable",
+              {"growth_rate", "critical_mode", "box_limit"});
+  CHECK(updated_dt({{"pressure", -0.05}})["stressed"] == true);
+  CHECK(updated_dt()["stressed"] == false);
+}
+
+TEST_CASE("leapfrog without stress has the limit of the same symbol in the linear scheme", "[fast]") {
+  // At zero stress M is that of tl-linear: c0² A Aᵀ + (μ/ρ)(|A|² I + A Aᵀ/3), with K = ρ c0².
+  const Json linear = study::time_step_answer(
+      case_of({{"scheme", "tl-linear"}, {"bulk_modulus", 1.0}, {"shear_modulus", 0.3}, {"h_over_spacing", 1.0}}), {});
+  constexpr double search = 1e-10;  // both maxima are polished until values are right to rounding
+  for (const char* integrator : {"leapfrog", "verlet"}) {
+    const Json updated = updated_dt({{"integrator", integrator}});
+    for (const char* key : {"critical_time_step", "courant_number"})
+      CHECK(updated[key].get<double>() == Approx(linear[key].get<double>()).epsilon(search));
+    CHECK(updated["zero_energy_modes"] == linear["zero_energy_modes"]);
+  }
+}
+
+TEST_CASE("the predictor-corrector grows by the law that dt states", "[fast]") {
+  // |λ|² = 1 + (ωΔt)⁴/4 at zero stress (theory.md §4): (ωΔt)⁴/8 a step, so that 1e-4 a step is 1 per 10⁴.
+  const Json answer = updated_dt({{"time_step", 0.05}});
+  const double omega = answer["critical_mode"]["omega"];
+  CHECK(answer["growth_law"]["exponent"] == 4);
+  constexpr double search = 1e-9;
+  CHECK(answer["growth_law"]["coefficient"].get<double>() == Approx(std::pow(omega, 4) / 8.0).epsilon(search));
+  const double z = std::pow(omega * 0.05, 2);
+  CHECK(answer["spectral_radius_at_time_step"].get<double>() == Approx(std::sqrt(1.0 + z * z / 4.0)).epsilon(rounding));
+  CHECK(answer["growth_per_step_at_time_step"].get<double>() ==
+        answer["spectral_radius_at_time_step"].get<double>() - 1.0);
+  // The tolerated growth is met at the step that is named for it.
+  const Json tolerant = updated_dt({{"tolerated_growth_per_step", 1e-3}});
+  const double step = tolerant["time_step_for_tolerance"];
+  CHECK(std::sqrt(1.0 + std::pow(omega * step, 4) / 4.0) == Approx(1.001).epsilon(1e-9));
+}
+
+TEST_CASE("the limit of a mode of ul is two over its frequency, that of a box the least of its modes", "[fast]") {
+  constexpr int M = 3, L = 2;
+  const Json neutral{{"integrator", "leapfrog"}, {"xsph", 0.5}};
+  double least = std::numeric_limits<double>::infinity();
+  for (int m = 1; m <= M; ++m)
+    for (int l = 1; l <= L; ++l) {
+      Json keys = neutral;
+      keys.update({{"mode", {m, l}}, {"box", {M, L}}});
+      const Json limit = updated_dt(keys)["mode_limit"];
+      if (limit["verdict"] == "unconditionally-stable") continue;  // (M, L) itself
+      CHECK(limit["critical_time_step"].get<double>() ==
+            Approx(2.0 / limit["critical_mode"]["omega"].get<double>()).epsilon(1e-9));
+      least = std::min(least, limit["critical_time_step"].get<double>());
+    }
+  Json keys = neutral;
+  keys["box"] = {M, L};
+  CHECK(updated_dt(keys)["box_limit"]["critical_time_step"].get<double>() == Approx(least).epsilon(rounding));
+}

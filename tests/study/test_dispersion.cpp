@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <set>
 
@@ -279,4 +280,50 @@ TEST_CASE("a branch that grows is drawn below zero", "[fast]") {
   }
   CHECK_THAT(figure.title, Contains("strained"));
   CHECK_THAT(figure.y_label, Contains("growth"));
+}
+
+TEST_CASE("bands of ul stand in the order of omega squared, a coupled pair with frequency and growth", "[fast]") {
+  Case input;
+  io::set_from_json(input, {{"scheme", "ul"},
+                            {"sound_speed", 1.0},
+                            {"shear_modulus", 0.2},
+                            {"pressure", -0.02},
+                            {"deviatoric_stress", {0.08, -0.02, 0.06}},
+                            {"path_points", 300}});
+  const auto figure = study::band_figure(input);
+  const Json points = study::dispersion_answer(input, {})["points"];
+  const double unit = std::sqrt(1.0 + 4.0 / 3.0 * 0.2);
+  REQUIRE(figure.curves.size() == 5);
+  CHECK(figure.curves[2].label == "growth rate of a coupled pair");
+  int coupled = 0, growing = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double growth = number(points[i]["growth_rate"]);
+    for (std::size_t branch = 0; branch < 2; ++branch) {
+      const Json& square = points[i]["omega_squared"][branch];
+      const std::complex<double> omega = std::sqrt(std::complex<double>(number(square[0]), number(square[1])));
+      const bool real = number(square[1]) == 0.0;
+      coupled += !real;
+      growing += real && number(square[0]) < 0.0;
+      const double height = real && number(square[0]) < 0.0 ? -omega.imag() : omega.real();
+      CHECK(figure.curves[branch].points[i].second == Approx(height / unit).margin(rounding));
+      if (!real) CHECK(figure.curves[2].points[i].second == Approx(-growth / unit).epsilon(rounding));
+      if (real) CHECK(std::isnan(figure.curves[2].points[i].second));
+    }
+  }
+  CHECK(coupled > 4);
+  CHECK(growing > 20);
+  CHECK_THAT(figure.title, Contains("P = -0.02") && Contains("S = (0.08, -0.02, 0.06)"));
+}
+
+TEST_CASE("bands of ul at rest start along the s-waves and p-waves of the continuum", "[fast]") {
+  Case input;
+  io::set_from_json(input, {{"scheme", "ul"}, {"sound_speed", 1.0}, {"shear_modulus", 0.2}, {"path", "G-X"}});
+  const auto figure = study::band_figure(input);
+  REQUIRE(figure.curves.size() == 4);
+  const double p_wave = std::sqrt(1.0 + 4.0 / 3.0 * 0.2), s_wave = std::sqrt(0.2);
+  for (const auto& [curve, speed] : {std::pair(2, s_wave / p_wave), std::pair(3, 1.0)})
+    for (std::size_t i = 0; i < 10; ++i) {
+      const auto& [k, height] = figure.curves[curve].points[i];
+      CHECK(height == Approx(speed * k).margin(rounding));
+    }
 }

@@ -75,3 +75,37 @@ TEST_CASE("the explanation covers one and three dimensions, damping, and states 
       case_of({{"density_in_momentum", "equation-of-state"}, {"displacement_gradient", {-0.4, 0.0, 0.0, -0.4}}}));
   CHECK_THAT(compressed.back(), Contains("no time step is stable"));
 }
+
+TEST_CASE("the explanation of ul leads to its limit, its weak growth or its instability", "[fast]") {
+  const auto explain = [](const Json& more) {
+    Json keys{{"scheme", "ul"}, {"sound_speed", 1.0}, {"shear_modulus", 0.3}, {"h_over_spacing", 1.0}};
+    keys.update(more);
+    Case input;
+    io::set_from_json(input, keys);
+    return study::explain_time_step(input);
+  };
+  // c_p² = 1 + 4/3 · 0.3, c_s² = 0.3.
+  const auto neutral = explain({{"integrator", "leapfrog"}});
+  REQUIRE(neutral.size() == 10);
+  CHECK_THAT(neutral[0], Contains("ul: a wave r exp(ik.x)"));
+  CHECK_THAT(neutral[1], Contains("p-wave speed 1.1832, s-wave speed 0.54772"));
+  CHECK_THAT(neutral[3], Contains("State") && Contains("no stress"));
+  CHECK_THAT(neutral[7], Contains("leapfrog") && Contains("omega dt <= 2"));
+  CHECK_THAT(neutral[8], Contains("dt = 2 / omega"));
+
+  const auto weak = explain(Json::object());
+  REQUIRE(weak.size() == 10);
+  CHECK_THAT(weak[7], Contains("predictor-corrector"));
+  CHECK_THAT(weak[8], Contains("dt^4") && Contains("a factor e in 10000 steps"));
+  // leapfrog's limit is offered as the way out: that of the line above.
+  const std::string limit = neutral[8].substr(neutral[8].find("omega = ") + 8, 6);
+  CHECK_THAT(weak[9], Contains("leapfrog") && Contains("dt = " + limit));
+
+  const auto unstable = explain({{"pressure", -0.05}, {"artificial_stress_epsilon", 0.02}});
+  CHECK_THAT(unstable[3], Contains("pressure -0.05") && Contains("epsilon = 0.02"));
+  CHECK_THAT(unstable.back(), Contains("no time step is stable") && Contains("sphstab growth"));
+
+  const auto viscous = explain({{"viscosity_alpha", 0.7}});
+  REQUIRE(viscous.size() == 10);
+  CHECK_THAT(viscous[7], Contains("viscosity alpha = 0.7") && Contains("the unit circle"));
+}
