@@ -144,7 +144,13 @@ std::vector<std::pair<double, double>> zone_boundary(const Lattice<2>& lattice) 
   return boundary;
 }
 
-io::MapFigure figure_of(const Problem<2>& problem) {
+io::LineFigure figure_of(const Problem<3>&) {
+  throw InvalidInput("figure: growth is drawn over zones of one and two dimensions, not 3; dispersion draws a path");
+}
+
+}  // namespace
+
+io::MapFigure growth_map(const Problem<2>& problem) {
   const GrowthRates<2> rates(problem);
   const double unit = std::numbers::pi / problem.lattice.spacing();
   const auto boundary = zone_boundary(problem.lattice);
@@ -171,19 +177,16 @@ io::MapFigure figure_of(const Problem<2>& problem) {
   return figure;
 }
 
-io::LineFigure figure_of(const Problem<3>&) {
-  throw InvalidInput("figure: growth is drawn over zones of one and two dimensions, not 3; dispersion draws a path");
-}
-
-}  // namespace
-
 Json growth_answer(const Case& input, const Request& request) {
   return in_dimension(input, [&](auto dimension) { return growth_answer<dimension()>(input, request); });
 }
 
 std::variant<io::LineFigure, io::MapFigure> growth_figure(const Case& input) {
   return in_dimension(input, [&](auto dimension) -> std::variant<io::LineFigure, io::MapFigure> {
-    return figure_of(make_problem<dimension()>(input));
+    if constexpr (dimension() == 2)
+      return growth_map(make_problem<2>(input));
+    else
+      return figure_of(make_problem<dimension()>(input));
   });
 }
 

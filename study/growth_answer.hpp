@@ -14,8 +14,10 @@ namespace sphstab::study {
 /// tests/study/test_growth_answer.cpp.
 Json growth_answer(const Case& input, const Request& request);
 
-/// The growth rate of each wave vector: a map over the first Brillouin zone in 2-D, a curve in 1-D. Throws InvalidInput
-/// (`figure`) in 3-D.
+/// The growth rate of each wave vector over the first Brillouin zone.
+io::MapFigure growth_map(const Problem<2>& problem);
+
+/// That map of a case in 2-D, a curve over half the zone in 1-D. Throws InvalidInput (`figure`) in 3-D.
 std::variant<io::LineFigure, io::MapFigure> growth_figure(const Case& input);
 
 }  // namespace sphstab::study

@@ -34,6 +34,14 @@ TEST_CASE("the committed bands come out again bit for bit", "[ladder]") { check_
 
 TEST_CASE("the committed hard cases come out again bit for bit", "[ladder]") { check_comes_out_again("hard-cases"); }
 
+TEST_CASE("the committed verdicts on Swegle's criterion come out again bit for bit", "[ladder]") {
+  check_comes_out_again("swegle");
+}
+
+TEST_CASE("the committed windows of artificial stress come out again bit for bit", "[ladder]") {
+  check_comes_out_again("tension");
+}
+
 TEST_CASE("the committed Case 1 of Zhang comes out again bit for bit", "[ladder]") {
   check_comes_out_again("zhang-case-1");
 }
