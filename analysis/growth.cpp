@@ -15,7 +15,8 @@ namespace sphstab::analysis {
 namespace {
 
 /// Steps of ε, and where an edge is found.
-constexpr double epsilon_step = 0.01;
+template <int Dim>
+constexpr double epsilon_step = Dim == 3 ? 0.05 : 0.01;
 constexpr double epsilon_tolerance = 1e-8;
 /// Local minima above this part of the range of the sampled values cannot fall to zero within a box of the grid:
 /// between points 2w apart a polynomial of type 2σ or 3σ falls by less than that (Riesz's bound, see ZoneScan).
@@ -252,10 +253,10 @@ std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem) {
     return {{0.0, largest_epsilon}};
   }
   std::vector<EpsilonInterval> intervals;
-  const int steps = static_cast<int>(std::lround(largest_epsilon / epsilon_step));
+  const int steps = static_cast<int>(std::lround(largest_epsilon / epsilon_step<Dim>));
   bool before = false;
   for (int i = 0; i <= steps; ++i) {
-    const double epsilon = i * epsilon_step, previous = (i - 1) * epsilon_step;
+    const double epsilon = i * epsilon_step<Dim>, previous = (i - 1) * epsilon_step<Dim>;
     const bool now = scan.stable(epsilon);
     if (now && !before) intervals.push_back({i == 0 ? 0.0 : scan.edge(epsilon, previous), largest_epsilon});
     if (before && !now) intervals.back().to = scan.edge(previous, epsilon);

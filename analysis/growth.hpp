@@ -44,7 +44,7 @@ inline constexpr double negligible_growth = 1e-6;
 
 /// The ε within [0, largest_epsilon] for which nothing grows, all else as in the problem (ArtificialStress's defaults
 /// where it has none); the set need not be an interval (theory.md §3). Empty where none does. M is linear in ε. Windows
-/// narrower than 0.01 can be missed; edges are right to 1e-8. Tested in tests/analysis/test_growth.cpp.
+/// narrower than 0.01 (0.05 in 3-D) can be missed; edges are right to 1e-8. Tested in tests/analysis/test_growth.cpp.
 template <int Dim>
 std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem);
 

@@ -29,6 +29,8 @@ constexpr double exit_tolerance = 1e-13;
 constexpr double search_tolerance = 1e-11;
 constexpr double search_width = 1e-9;
 constexpr int most_rounds = 40;
+/// Exits beyond this times that of the stiffest mode are not told apart.
+constexpr double cap_margin = 1.1;
 /// Rates below this, in units of c_p/Δp, are roundings of zero: nothing moves.
 constexpr double no_rate = 1e-12;
 
@@ -217,21 +219,22 @@ std::optional<ZonePoint<Dim>> UpdatedModes<Dim>::first_exit(double threshold) co
   const Material& material = problem_.material;
   const double rate_unit = std::sqrt(material.p_wave_modulus() / material.density()) / problem_.lattice.spacing();
   if (fastest_rate <= no_rate * rate_unit) return std::nullopt;
-  ZonePoint<Dim> first{range_.stiffest.wave_vector, 1.0 / fastest_rate};
-  bool found = false;
-  const auto lower_to = [&](const Vector<Dim>& k) {
-    if (const auto step = exit(k, threshold, first.value)) first = {k, *step}, found = true;
-  };
   // Every explicit step grows beyond some multiple of the shortest time.
-  while (!found) {
-    first.value *= 2.0;
-    lower_to(range_.stiffest.wave_vector);
-    for (const auto& k : scan_.points()) lower_to(k);
+  double cap = 1.0 / fastest_rate;
+  std::optional<ZonePoint<Dim>> sampled;
+  while (!sampled) {
+    cap *= 2.0;
+    const auto minus_exit = [&](const Vector<Dim>& k) { return -exit(k, threshold, cap).value_or(cap); };
+    if (const auto of_stiffest = exit(range_.stiffest.wave_vector, threshold, cap)) cap = cap_margin * *of_stiffest;
+    const auto least = scan_.maximum(minus_exit);
+    if (-least.value < cap) sampled = ZonePoint<Dim>{least.wave_vector, -least.value};
   }
+  ZonePoint<Dim> first = *sampled;
   for (int round = 0; round < most_rounds; ++round) {
     const double before = first.value;
     const auto fastest = scan_.maximum([&](const Vector<Dim>& k) { return radius(k, before); });
-    if (fastest.value > 1.0 + threshold) lower_to(fastest.wave_vector);
+    if (fastest.value > 1.0 + threshold)
+      if (const auto step = exit(fastest.wave_vector, threshold, before)) first = {fastest.wave_vector, *step};
     if (first.value > before * (1.0 - search_tolerance)) break;
   }
   return first;

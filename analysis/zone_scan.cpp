@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "analysis/critical_step.hpp"
@@ -34,6 +35,10 @@ constexpr double tight = 1e-10;
 template <int Dim>
 constexpr long evaluation_budget = Dim == 3 ? 300'000 : 40'000;
 
+/// A grid can miss the top of a ridge by this part of the range: sin²(τw/2) by Riesz's bound, of type τ = 3σ.
+template <int Dim>
+constexpr double hidden_part = Dim == 3 ? 0.14 : 0.05;
+
 template <int Dim>
 constexpr int stencil_size = Dim == 1   ? 3
                              : Dim == 2 ? 9
@@ -46,7 +51,8 @@ class Stencil {
   double& operator[](const LatticeIndex<Dim>& n) { return values_[place(n)]; }
   double operator[](const LatticeIndex<Dim>& n) const { return values_[place(n)]; }
 
-  /// Where the parabola through the values has its maximum; nothing unless it has one nearby.
+  /// Where the parabola through the values has its maximum, or as far towards it as it is trusted; nothing unless it
+  /// has one.
   std::optional<Vector<Dim>> summit() const {
     using Index = LatticeIndex<Dim>;
     const double centre = (*this)[Index::Zero()];
@@ -65,8 +71,9 @@ class Stencil {
     const Eigen::LLT<Tensor<Dim>> factors(curvature);
     if (factors.info() != Eigen::Success) return std::nullopt;
     const Vector<Dim> move = factors.solve(gradient);
-    if (!(move.cwiseAbs().maxCoeff() <= farthest_move)) return std::nullopt;
-    return move;
+    const double size = move.cwiseAbs().maxCoeff();
+    if (!std::isfinite(size)) return std::nullopt;
+    return size > farthest_move ? Vector<Dim>(move * (farthest_move / size)) : move;
   }
 
  private:
@@ -124,22 +131,37 @@ std::vector<double> ZoneScan<Dim>::sampled(const Function& function) const {
 
 template <int Dim>
 std::vector<std::size_t> ZoneScan<Dim>::local_maxima(const std::vector<double>& values) const {
+  return summits_above(values, std::numeric_limits<double>::infinity());
+}
+
+template <int Dim>
+std::vector<std::size_t> ZoneScan<Dim>::summits_above(const std::vector<double>& values, double ridge_level) const {
   std::vector<std::size_t> found;
+  // The value at a cell beside n, or nothing outside the domain.
+  const auto value_at = [&](const LatticeIndex<Dim>& n) -> std::optional<double> {
+    if ((n.array() < 0).any() || (n.array() >= cells_.array()).any()) return std::nullopt;
+    const long point = point_of_cell_[cell_number<Dim>(n, cells_)];
+    return point < 0 ? std::nullopt : std::optional(values[static_cast<std::size_t>(point)]);
+  };
   for_each_index<Dim>(LatticeIndex<Dim>::Zero(), cells_.array() - 1, [&](const LatticeIndex<Dim>& n) {
     const long point = point_of_cell_[cell_number<Dim>(n, cells_)];
     if (point < 0) return;
     const double value = values[static_cast<std::size_t>(point)];
-    bool highest = true, above_one = false;
-    const LatticeIndex<Dim> low = (n.array() - 1).max(0), high = (n.array() + 1).min(cells_.array() - 1);
-    for_each_index<Dim>(low, high, [&](const LatticeIndex<Dim>& m) {
-      const long other = point_of_cell_[cell_number<Dim>(m, cells_)];
-      if (other < 0) return;
-      highest = highest && values[static_cast<std::size_t>(other)] <= value;
-      above_one = above_one || values[static_cast<std::size_t>(other)] < value;
+    bool highest = true, above_one = false, on_ridge = false;
+    for_each_index<Dim>(LatticeIndex<Dim>::Constant(-1), LatticeIndex<Dim>::Ones(), [&](const LatticeIndex<Dim>& m) {
+      if (!in_upper_half<Dim>(m)) return;
+      const auto before = value_at(n - m), after = value_at(n + m);
+      const bool along = value >= before.value_or(value) && value >= after.value_or(value);
+      const bool above = value > before.value_or(value) || value > after.value_or(value);
+      highest = highest && along;
+      above_one = above_one || above;
+      on_ridge = on_ridge || (along && above);
     });
-    if (highest && above_one) found.push_back(static_cast<std::size_t>(point));
+    if ((highest && above_one) || (on_ridge && value >= ridge_level)) found.push_back(static_cast<std::size_t>(point));
   });
-  for (std::size_t i = boxes_.size(); i < points_.size(); ++i) found.push_back(i);
+  const double least = *std::min_element(values.begin(), values.end());
+  for (std::size_t i = boxes_.size(); i < points_.size(); ++i)
+    if (boxes_.empty() || values[i] > least) found.push_back(i);
   return found;
 }
 
@@ -163,16 +185,17 @@ ZonePoint<Dim> ZoneScan<Dim>::polished(const Function& function, const Vector<Di
     });
     const bool moved = best.value > centre.value + noise;
     const auto summit = stencil.summit();
-    if ((summit && visit(*summit).second) || !moved) step *= shrinkage;
+    const bool at_summit = summit && visit(*summit).second && summit->cwiseAbs().maxCoeff() <= 1.0;
+    if (at_summit || (!moved && best.value <= centre.value + noise)) step *= shrinkage;
   }
   return best;
 }
 
 template <int Dim>
 ZonePoint<Dim> ZoneScan<Dim>::maximum(const Function& function, const std::vector<double>& values) const {
-  const auto largest = std::max_element(values.begin(), values.end()) - values.begin();
-  ZonePoint<Dim> best{points_[static_cast<std::size_t>(largest)], values[static_cast<std::size_t>(largest)]};
-  for (const std::size_t start : local_maxima(values)) {
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  ZonePoint<Dim> best{points_[static_cast<std::size_t>(largest - values.begin())], *largest};
+  for (const std::size_t start : summits_above(values, *largest - hidden_part<Dim> * (*largest - *least))) {
     const ZonePoint<Dim> reached = polished(function, points_[start]);
     if (reached.value > best.value) best = reached;
   }

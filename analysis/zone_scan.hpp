@@ -40,13 +40,15 @@ class ZoneScan {
   /// `function` at every point.
   std::vector<double> sampled(const Function& function) const;
 
-  /// The points whose neighbours on the grid have no larger value, and one a smaller one; the points of their own.
+  /// The points whose neighbours on the grid have no larger value, and one a smaller one; of the points of their own
+  /// those above the least value.
   std::vector<std::size_t> local_maxima(const std::vector<double>& values) const;
 
   /// The local maximum that is reached from here: the best of a 3^Dim stencil and of the maximum of the parabola
   /// through it, with steps down to 1e-9 in phase. Values are right to rounding where the function is smooth.
   ZonePoint<Dim> polished(const Function& function, const Vector<Dim>& start) const;
-  /// The largest of the polished local maxima of sampled values.
+  /// The largest of the polished local maxima of sampled values. Points of a ridge, local maxima in one direction, are
+  /// starts too where they are high enough to hide the maximum: wide kernels have rings of near-maxima.
   ZonePoint<Dim> maximum(const Function& function, const std::vector<double>& values) const;
   ZonePoint<Dim> maximum(const Function& function) const { return maximum(function, sampled(function)); }
 
@@ -60,6 +62,7 @@ class ZoneScan {
                      double found) const;
 
  private:
+  std::vector<std::size_t> summits_above(const std::vector<double>& values, double ridge_level) const;
   Vector<Dim> wave_vector(const Vector<Dim>& phases) const { return phase_axes_ * phases; }
 
   std::vector<Vector<Dim>> points_;

@@ -82,8 +82,7 @@ std::string figure(const Case& input) {
 CaseCommand growth_command() {
   return {.name = "growth",
           .summary = "the fastest growth of a stressed state, which artificial stress removes it, and at what price",
-          .groups = {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress,
-                     KeyGroup::mode, KeyGroup::time, KeyGroup::growth},
+          .groups = {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress},
           .answer = study::growth_answer,
           .describe = describe,
           .columns = {"growth_rate", "verdict", "critical_mode.branch", "critical_mode.wave_vector",

@@ -48,16 +48,30 @@ Json list_lattices() {
   return rows;
 }
 
-/// The words of a key, its help and the keys of a group that belong to them.
-Json list_words(std::string_view key, const std::vector<KeyGroup>& groups) {
-  std::vector<std::string_view> parameters;
-  for (const Key& entry : key_table())
-    if (entry.name != key && std::find(groups.begin(), groups.end(), entry.group) != groups.end())
-      parameters.push_back(entry.name);
+Json list_integrators() {
   Json rows = Json::array();
-  for (const auto& word : find_key(key).words) {
-    Json row{{"name", word}};
-    if (!parameters.empty()) row["parameters"] = parameters;
+  for (const auto& word : find_key("integrator").words) rows.push_back({{"name", word}});
+  return rows;
+}
+
+/// Whether a key is for this scheme: the help of one that is for a single scheme begins with its name.
+bool is_read_by(std::string_view scheme, const Key& key) {
+  const auto& schemes = find_key("scheme").words;
+  return std::none_of(schemes.begin(), schemes.end(), [&](std::string_view other) {
+    return other != scheme && key.help.starts_with(std::string(other) + ":");
+  });
+}
+
+/// The schemes and the keys of their materials, terms and base states.
+Json list_schemes() {
+  constexpr std::array groups{KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress};
+  Json rows = Json::array();
+  for (const auto& scheme : find_key("scheme").words) {
+    Json row{{"name", scheme}};
+    for (const Key& key : key_table())
+      if (key.name != "scheme" && std::find(groups.begin(), groups.end(), key.group) != groups.end() &&
+          is_read_by(scheme, key))
+        row["parameters"].push_back(key.name);
     rows.push_back(std::move(row));
   }
   return rows;
@@ -100,8 +114,8 @@ Json list_keys() {
 Json list_topic(std::string_view topic) {
   if (topic == "kernels") return list_kernels();
   if (topic == "lattices") return list_lattices();
-  if (topic == "schemes") return list_words("scheme", {KeyGroup::scheme, KeyGroup::material});
-  if (topic == "integrators") return list_words("integrator", {});
+  if (topic == "schemes") return list_schemes();
+  if (topic == "integrators") return list_integrators();
   if (topic == "scenes") return list_scenes();
   return list_keys();
 }

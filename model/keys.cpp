@@ -45,7 +45,7 @@ const Key table[] = {
     {"bulk_modulus", number, material, "", "bulk modulus, with shear_modulus", positive},
     {"shear_modulus", number, material, "", "shear modulus, stress over engineering shear strain", not_negative},
     {"sound_speed", number, material, "", "ul: bulk sound speed c0, with shear_modulus", positive},
-    {"plane", word, material, "strain", "plane strain or plane stress (2D)", any_number, all_names<Plane>},
+    {"plane", word, material, "strain", "tl-linear: plane strain or plane stress (2D)", any_number, all_names<Plane>},
 
     {"scheme", word, scheme, "",
      "discretisation: tl-linear (Zhang et al., total Lagrangian, linear), ul (Gray et al., updated Lagrangian)",
@@ -126,7 +126,7 @@ const Key table[] = {
      "step"},
 
     {"distance", number, distance, "", "distance of two particles, a length", not_negative},
-    {"artificial_stress_exponent", number, artificial_stress, "4", "exponent n of the artificial stress's weight",
+    {"artificial_stress_exponent", number, artificial_stress, "4", "ul: exponent n of the artificial stress's weight",
      not_negative},
 };
 

@@ -227,11 +227,12 @@ std::string neutral_integrators(Problem<Dim> problem) {
 template <int Dim>
 std::vector<std::string> weak_lines(const Problem<Dim>& problem, const analysis::WeaklyUnstable<Dim>& weak) {
   const double quiet_step = std::pow(quiet_growth / weak.coefficient, 1.0 / weak.exponent);
+  const auto error = weak.exponent == 2 ? "moves particles with an acceleration that XSPH does not smooth"
+                                        : "predicts density and stress to first order only";
   return {
       line("Frequency", fmt::format("omega = {:.6g}; in continuous time nothing grows", weak.mode.omega)),
-      line("Integrator", fmt::format("{} predicts density and stress to first order only: the error of a step "
-                                     "feeds the wave, whatever the step",
-                                     name_of(problem.integrator))),
+      line("Integrator", fmt::format("{} {}: the error of a step feeds the wave, whatever the step",
+                                     name_of(problem.integrator), error)),
       line("Limit", fmt::format("none; a short step multiplies the worst mode by 1 + {:.4g} dt^{}: {:g} per step at "
                                 "dt = {:.4g}, a factor e in {:.0f} steps",
                                 weak.coefficient, weak.exponent, quiet_growth, quiet_step, 1.0 / quiet_growth)),

@@ -8,16 +8,17 @@ namespace sphstab::study {
 
 namespace {
 
-constexpr std::array<ReportMaker, 10> makers{{{"zhang-plate", zhang_plate_report},
-                                              {"zhang-case-1", zhang_case_1_report},
-                                              {"zhang-case-2", zhang_case_2_report},
-                                              {"bands", band_report},
-                                              {"stability-tables", stability_tables_report},
-                                              {"hard-cases", hard_cases_report},
-                                              {"bodies", body_report},
-                                              {"natural-frequencies", natural_frequency_report},
-                                              {"swegle", swegle_report},
-                                              {"gray-printed-numbers", gray_numbers_report}}};
+constexpr auto makers = std::to_array<ReportMaker>({{"zhang-plate", zhang_plate_report},
+                                                    {"zhang-case-1", zhang_case_1_report},
+                                                    {"zhang-case-2", zhang_case_2_report},
+                                                    {"bands", band_report},
+                                                    {"stability-tables", stability_tables_report},
+                                                    {"hard-cases", hard_cases_report},
+                                                    {"bodies", body_report},
+                                                    {"natural-frequencies", natural_frequency_report},
+                                                    {"gray-printed-numbers", gray_numbers_report},
+                                                    {"swegle", swegle_report},
+                                                    {"tension", tension_report}});
 
 }  // namespace
 

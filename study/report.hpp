@@ -54,6 +54,9 @@ Report body_report(const Progress& progress);
 /// against finite elements.
 Report natural_frequency_report(const Progress& progress);
 
+/// Which lattice, h/Δp and ε of the artificial stress are stable in tension, and what the stress costs.
+Report tension_report(const Progress& progress);
+
 /// Swegle's criterion on a chain beside what all neighbours do at k = π/Δp and at any k.
 Report swegle_report(const Progress& progress);
 
