@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <algorithm>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -109,11 +109,13 @@ class PlainUpdatedScheme {
       for_each_index<Dim>(-reach, reach, [&](const LatticeIndex<Dim>& n) {
         const Vector<Dim> r_ab = -problem.lattice.site(n);
         if (n == zero || r_ab.norm() >= problem.kernel.support() * (1.0 - tie_margin)) return;
-        const LatticeIndex<Dim> image = sites_[a] + n;
-        for (int b = 0; b < size(); ++b)
-          if (((image - sites_[b]).array() - patch.array() * ((image - sites_[b]).array() / patch.array()) == 0).all())
-            pairs_.push_back({a, b, r_ab});
+        pairs_.push_back({a, image_in(patch, sites_[a] + n), r_ab});
       });
+    if (problem.neighbour_rule == NeighbourRule::nearest) {
+      double nearest = problem.kernel.support();
+      for (const Pair& pair : pairs_) nearest = std::min(nearest, pair.r_ab.norm());
+      std::erase_if(pairs_, [=](const Pair& pair) { return pair.r_ab.norm() > 1.0001 * nearest; });
+    }
     const State base = base_state();
     base_artificial_stress_ = artificial_stress(base.front().rho, base.front().S);
   }
@@ -195,6 +197,17 @@ class PlainUpdatedScheme {
     Vector<Dim> r_ab;  ///< of the sites
   };
   using Rates = std::vector<PlainRates<Dim, Scalar>>;
+
+  /// The particle of the patch that this site is an image of.
+  int image_in(const LatticeIndex<Dim>& patch, const LatticeIndex<Dim>& site) const {
+    for (int b = 0; b < size(); ++b) {
+      const LatticeIndex<Dim> shift = site - sites_[b];
+      bool whole = true;
+      for (int i = 0; i < Dim; ++i) whole = whole && shift[i] % patch[i] == 0;
+      if (whole) return b;
+    }
+    return -1;
+  }
 
   double sound_speed_squared() const { return problem_.material.bulk_modulus() / problem_.material.density(); }
   double base_density() const { return problem_.material.density() + problem_.pressure / sound_speed_squared(); }
