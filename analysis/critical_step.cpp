@@ -171,7 +171,7 @@ StepLimit<Dim> paper_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>&
   for (const auto& n : indices_below<Dim>("box", box))
     modes.push_back(std::numbers::pi / problem.lattice.spacing() *
                     ((n.array() + 1).template cast<double>() / box.array().template cast<double>()).matrix());
-  return limit_of<Dim>(range_over(problem, modes), ModeSteps(problem));
+  return limit_over<Dim>(problem, modes);
 }
 
 template <int Dim>
@@ -180,7 +180,7 @@ StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>&
   for (const auto& n : indices_below<Dim>("patch", cells))
     modes.push_back(problem.lattice.reciprocal_vectors() *
                     (n.array().template cast<double>() / cells.array().template cast<double>()).matrix());
-  return limit_of<Dim>(range_over(problem, modes), ModeSteps(problem));
+  return limit_over<Dim>(problem, modes);
 }
 
 template <int Dim>

@@ -186,3 +186,13 @@ extern template ZeroEnergyModes<3> zero_energy_modes(const Problem<3>&);
 extern template Vector<3> tidy(const BrillouinZone<3>&, const Vector<3>&);
 
 }  // namespace sphstab::analysis
+
+namespace sphstab {
+
+template <>
+struct Names<analysis::BracketKind> {
+  static constexpr std::array<Named<analysis::BracketKind>, 2> table{
+      {{analysis::BracketKind::certified, "certified"}, {analysis::BracketKind::searched, "searched"}}};
+};
+
+}  // namespace sphstab

@@ -31,8 +31,9 @@ std::string describe_limit(const Json& answer) {
            row("growth per step", describe_law(answer["growth_law"])) +
            row("fastest mode", fmt::format("{}, omega = {:.8g}", wave, mode["omega"].get<double>()));
   return row("critical time step", fmt::format("{:.12g}", answer["critical_time_step"].get<double>())) +
-         row("certified between", fmt::format("{:.17g} and {:.17g}", answer["bracket"][0].get<double>(),
-                                              answer["bracket"][1].get<double>())) +
+         row(answer["bracket_kind"] == "certified" ? "certified between" : "found between",
+             fmt::format("{:.17g} and {:.17g}", answer["bracket"][0].get<double>(),
+                         answer["bracket"][1].get<double>())) +
          row("verdict", "conditionally stable") +
          row("critical mode", fmt::format("{}, omega = {:.8g}", wave, mode["omega"].get<double>()));
 }

@@ -33,6 +33,7 @@ Json to_json(const analysis::StepLimit<Dim>& limit) {
           [](const analysis::ConditionallyStable<Dim>& stable) -> Json {
             return {{"critical_time_step", stable.critical_time_step},
                     {"bracket", {stable.bracket.low, stable.bracket.high}},
+                    {"bracket_kind", name_of(stable.bracket_kind)},
                     {"verdict", "conditionally-stable"},
                     {"critical_mode", mode_json<Dim>(stable.mode)}};
           },

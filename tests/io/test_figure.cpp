@@ -291,7 +291,7 @@ TEST_CASE("the cells of a map can have equal units", "[fast]") {
   CHECK(square.width / 3.0 == Approx(square.height / 2.0).margin(pixel));
   figure.equal_units = false;
   const Picture stretched = picture(render_svg(figure));
-  CHECK(stretched.height > 1.2 * square.height);
+  CHECK(stretched.height > 1.1 * square.height);
 }
 
 TEST_CASE("a missing gnuplot is named with the package that brings it", "[fast]") {

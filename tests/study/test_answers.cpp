@@ -128,7 +128,8 @@ TEST_CASE("dt has every key of the interface that applies to its verdict", "[fas
     CHECK(keys_of(answer) == more);
     CHECK(answer["bulk_only"] == true);
   };
-  const std::set<std::string> conditional{"critical_mode", "courant_number", "equivalents", "published_bound"};
+  const std::set<std::string> conditional{"bracket_kind", "critical_mode", "courant_number", "equivalents",
+                                          "published_bound"};
   const Json plain = dt({});
   expect_keys(plain, conditional);
   CHECK(plain["verdict"] == "conditionally-stable");
@@ -287,7 +288,12 @@ TEST_CASE("dt of ul has every key of the interface that applies to its verdict",
     CHECK(answer["verdict"] == verdict);
   };
   const Json leapfrog{{"integrator", "leapfrog"}};
-  expect_keys(updated_dt(leapfrog), "conditionally-stable", {"critical_mode", "courant_number", "equivalents"});
+  const std::set<std::string> conditional{"bracket_kind", "critical_mode", "courant_number", "equivalents"};
+  expect_keys(updated_dt(leapfrog), "conditionally-stable", conditional);
+  CHECK(updated_dt(leapfrog)["bracket_kind"] == "certified");
+  const Json viscous{{"viscosity_alpha", 0.5}};
+  expect_keys(updated_dt(viscous), "conditionally-stable", conditional);
+  CHECK(updated_dt(viscous)["bracket_kind"] == "searched");
   expect_keys(updated_dt(), "weakly-unstable", {"critical_mode", "growth_law"});
   CHECK(keys_of(updated_dt()["growth_law"]) == std::set<std::string>{"coefficient", "exponent"});
   expect_keys(updated_dt({{"time_step", 0.2}, {"steps", 1000}, {"wave_vector", {1, 0}}}), "weakly-unstable",
