@@ -33,7 +33,7 @@ Tensor<Dim, Scalar> jaumann_rate(const Tensor<Dim, Scalar>& velocity_gradient, c
   const Tensor<Dim, Scalar> twice_strain_rate = velocity_gradient + velocity_gradient.transpose();
   const Tensor<Dim, Scalar> spin = (velocity_gradient - velocity_gradient.transpose()) / Scalar(2);
   const Tensor<Dim, Scalar> turned = spin * S;
-  Tensor<Dim, Scalar> rate = shear_modulus * twice_strain_rate + turned + turned.transpose();
+  Tensor<Dim, Scalar> rate = shear_modulus * twice_strain_rate + (turned + turned.transpose());
   rate.diagonal().array() -= shear_modulus * twice_strain_rate.trace() / Scalar(3);
   return rate;
 }
