@@ -19,6 +19,11 @@ struct Site {
   LatticeIndex<Dim> periods;  ///< that it was moved by from where the particle is
 };
 
+template <int Dim>
+bool comes_first(const LatticeIndex<Dim>& left, const LatticeIndex<Dim>& right) {
+  return std::lexicographical_compare(left.begin(), left.end(), right.begin(), right.end());
+}
+
 }  // namespace
 
 template <int Dim>
@@ -71,6 +76,10 @@ void NeighbourList<Dim>::build() {
       const auto& [b, periods] = site[pairs.neighbour[pair]];
       if (b > a) candidates_.push_back({b, image_of(periods - site[a].periods)});
     }
+    std::sort(candidates_.begin() + first_[a], candidates_.end(), [&](const auto& left, const auto& right) {
+      return left.particle != right.particle ? left.particle < right.particle
+                                             : comes_first<Dim>(periods_[left.image], periods_[right.image]);
+    });
     first_.push_back(static_cast<int>(candidates_.size()));
   }
 }

@@ -23,8 +23,9 @@ inline constexpr double skin_fraction = 0.1;
 /// Candidates for neighbours, each pair (and each image of it) once: all pairs closer than the support plus a skin when
 /// the list was built. It stays complete until two particles together have moved by the skin, so it is built again when
 /// one has moved by more than half of it. Pairs of a particle and its own images are left out: their forces and
-/// gradients cancel. Found by the cells of model/body.hpp among the particles and those of their periodic images that
-/// the support reaches. Checked against brute force in tests/solver/test_updated_neighbours.cpp.
+/// gradients cancel. The order of the candidates does not depend on where the list was built, so that neither do sums
+/// over them. Found by the cells of model/body.hpp among the particles and those of their periodic images that the
+/// support reaches. Checked against brute force in tests/solver/test_updated_neighbours.cpp.
 template <int Dim>
 class NeighbourList {
  public:

@@ -282,6 +282,7 @@ TEST_CASE("ul: a run that leaves the numbers says at which step, particle and qu
   CHECK(lost->quantity == UpdatedQuantity::position);
 
   // The first step leads to velocities just within the doubles, the second past them; the third is not made.
+  body.problem.integrator = Integrator::leapfrog;
   Body<2> heavy = free_plate(body.problem, LatticeIndex<2>(4, 4));
   heavy.load.assign(heavy.size(), Vector<2>(0.0, 0.75 * std::numeric_limits<double>::max()));
   UpdatedSimulation<2> simulation(body.problem, heavy);
@@ -289,7 +290,7 @@ TEST_CASE("ul: a run that leaves the numbers says at which step, particle and qu
   lost = simulation.advance(state, 1.0, 3);
   REQUIRE(lost);
   CHECK(lost->step == 2);
-  CHECK(simulation.work().rates == 4);
+  CHECK(simulation.work().rates == 2);
 }
 
 TEST_CASE("ul: terms that the scheme does not name are not evaluated", "[fast]") {
