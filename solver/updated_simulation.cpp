@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "solver/updated_simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "solver/updated_stepper.hpp"
 #include "solver/updated_stress.hpp"
+#include "solver/updated_weights.hpp"
 
 namespace sphstab::solver {
 namespace {
-
-/// Kernels are evaluated in double precision or with derivatives.
-template <class Scalar>
-using Wide = std::conditional_t<std::is_same_v<Scalar, float>, double, Scalar>;
 
 template <int Dim>
 void require_updated_lagrangian(const Problem<Dim>& problem) {
@@ -27,14 +24,6 @@ void require_updated_lagrangian(const Problem<Dim>& problem) {
 template <int Dim>
 Tensor<Dim> periods(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
   return problem.lattice.primitive_vectors() * cells.template cast<double>().asDiagonal();
-}
-
-/// x^n; a whole number n costs no logarithm.
-template <class Scalar>
-Scalar power(const Scalar& x, double n) {
-  using std::pow;
-  if (n == std::floor(n) && n >= 0.0 && n <= 16.0) return kernel_shape::integer_power(x, static_cast<int>(n));
-  return Scalar(pow(x, static_cast<decltype(value_of(x))>(n)));
 }
 
 template <class Scalar>
@@ -135,13 +124,12 @@ void UpdatedSimulation<Dim, Scalar>::place(const Field<Dim, Scalar>& position) {
     ++work_.list_builds;
     neighbour_.resize(neighbours_.size());
     separation_.resize(neighbours_.size());
-    distance_.resize(neighbours_.size());
+    distance_squared_.resize(neighbours_.size());
     F_.resize(neighbours_.size());
-    if (scheme_.xsph || scheme_.artificial_stress) W_.resize(neighbours_.size());
+    if (scheme_.xsph) W_.resize(neighbours_.size());
     if (scheme_.artificial_stress) phi_.resize(neighbours_.size());
   }
   ++work_.placements;
-  using std::sqrt;
   const Scalar support = static_cast<Scalar>(kernel_.support() * (1.0 - tie_margin));
   const Scalar limit = support * support;
   int pair = 0;
@@ -152,7 +140,7 @@ void UpdatedSimulation<Dim, Scalar>::place(const Field<Dim, Scalar>& position) {
       const Scalar distance_squared = r_ab.squaredNorm();
       neighbour_[pair] = b;
       separation_[pair] = r_ab;
-      distance_[pair] = distance_squared;
+      distance_squared_[pair] = distance_squared;
       pair += distance_squared < limit ? 1 : 0;
     }
   }
@@ -162,20 +150,19 @@ void UpdatedSimulation<Dim, Scalar>::place(const Field<Dim, Scalar>& position) {
 
 template <int Dim, class Scalar>
 void UpdatedSimulation<Dim, Scalar>::weigh_pairs() {
-  using std::sqrt;
-  for (int pair = 0; pair < pairs(); ++pair) {
-    const Wide<Scalar> r = sqrt(Wide<Scalar>(distance_[pair]));
-    distance_[pair] = static_cast<Scalar>(r);
-    F_[pair] = static_cast<Scalar>(kernel_.slope(r) / r);
-  }
-  if (!W_.empty())
-    for (int pair = 0; pair < pairs(); ++pair)
-      W_[pair] = static_cast<Scalar>(kernel_.value(Wide<Scalar>(distance_[pair])));
-  if (const auto& artificial = scheme_.artificial_stress) {
-    const bool kernel_ratio = artificial->weight == ArtificialStressWeight::kernel_ratio;
-    const Scalar inverse = static_cast<Scalar>(1.0 / (kernel_ratio ? kernel_.value(spacing_) : spacing_));
-    const auto& f = kernel_ratio ? W_ : distance_;
-    for (int pair = 0; pair < pairs(); ++pair) phi_[pair] = power(Scalar(f[pair] * inverse), artificial->exponent);
+  using Block = PairBlock<Scalar>;
+  for (int begin = 0; begin < pairs(); begin += pairs_a_block) {
+    const int size = std::min(pairs_a_block, pairs() - begin);
+    const auto part = [&](std::vector<Scalar>& numbers) {
+      return Eigen::Map<Eigen::Array<Scalar, Eigen::Dynamic, 1>>(numbers.data() + begin, size);
+    };
+    const Block r = part(distance_squared_).template cast<Wide<Scalar>>().sqrt();
+    const auto [W, dW] = kernel_block(kernel_, r);
+    part(F_) = (dW / r).template cast<Scalar>();
+    if (scheme_.xsph) part(W_) = W.template cast<Scalar>();
+    if (scheme_.artificial_stress)
+      part(phi_) =
+          artificial_stress_weights(*scheme_.artificial_stress, kernel_, spacing_, r, W).template cast<Scalar>();
   }
 }
 
