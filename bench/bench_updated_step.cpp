@@ -27,6 +27,11 @@ Problem<2> plain_problem(Integrator integrator) {
   return problem;
 }
 
+void report_per_particle(benchmark::State& timing, double times) {
+  using benchmark::Counter;
+  timing.counters["per_particle"] = Counter(times, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
 struct Terms {
   bool artificial_stress = false, xsph = false, viscosity = false;
 };
@@ -46,9 +51,7 @@ void step(benchmark::State& timing, Integrator integrator, Terms terms) {
         1e-3 * std::sin(2.0 * std::numbers::pi / side * static_cast<double>(state.position[a].sum()))));
   for (auto _ : timing) simulation.advance(state, 0.05, steps_a_call);
   benchmark::DoNotOptimize(state.position.data());
-  using benchmark::Counter;
-  timing.counters["per_particle"] = Counter(static_cast<double>(state.particles() * steps_a_call),
-                                            Counter::kIsIterationInvariantRate | Counter::kInvert);
+  report_per_particle(timing, state.particles() * steps_a_call);
   timing.counters["list_builds"] = static_cast<double>(simulation.work().list_builds);
 }
 
@@ -64,6 +67,21 @@ void step_double(benchmark::State& timing, Integrator integrator, Terms terms) {
 void step_float(benchmark::State& timing, Integrator integrator, Terms terms) {
   step<float>(timing, integrator, terms);
 }
+
+/// The search that a run repeats only when a particle has moved by half the skin.
+void neighbour_list(benchmark::State& timing) {
+  const int side = static_cast<int>(timing.range(0));
+  const Problem<2> problem = plain_problem(Integrator::leapfrog);
+  const auto patch = periodic_patch(problem, LatticeIndex<2>(side, side));
+  const Tensor<2> box = side * problem.lattice.primitive_vectors();
+  for (auto _ : timing) {
+    solver::NeighbourList<2> list(problem.kernel.support(), box);
+    list.update(patch.position);
+    benchmark::DoNotOptimize(list.size());
+  }
+  report_per_particle(timing, patch.size());
+}
+BENCHMARK(neighbour_list)->Apply(sizes);
 
 constexpr auto leapfrog = Integrator::leapfrog;
 BENCHMARK_CAPTURE(step_double, leapfrog_plain, leapfrog, Terms{})->Apply(sizes);

@@ -124,7 +124,6 @@ void UpdatedSimulation<Dim, Scalar>::place(const Field<Dim, Scalar>& position) {
     ++work_.list_builds;
     neighbour_.resize(neighbours_.size());
     separation_.resize(neighbours_.size());
-    distance_squared_.resize(neighbours_.size());
     F_.resize(neighbours_.size());
     if (scheme_.xsph) W_.resize(neighbours_.size());
     if (scheme_.artificial_stress) phi_.resize(neighbours_.size());
@@ -132,7 +131,7 @@ void UpdatedSimulation<Dim, Scalar>::place(const Field<Dim, Scalar>& position) {
   ++work_.placements;
   const Scalar support = static_cast<Scalar>(kernel_.support() * (1.0 - tie_margin));
   const Scalar limit = support * support;
-  int pair = 0;
+  int pair = 0, weighed = 0;
   for (int a = 0; a < particles(); ++a) {
     first_[a] = pair;
     for (const auto& [b, image] : neighbours_.candidates(a)) {
@@ -140,30 +139,28 @@ void UpdatedSimulation<Dim, Scalar>::place(const Field<Dim, Scalar>& position) {
       const Scalar distance_squared = r_ab.squaredNorm();
       neighbour_[pair] = b;
       separation_[pair] = r_ab;
-      distance_squared_[pair] = distance_squared;
+      F_[pair] = distance_squared;  // until the pair is weighed
       pair += distance_squared < limit ? 1 : 0;
     }
+    for (; pair - weighed >= pairs_a_block; weighed += pairs_a_block)  // while they are in the cache
+      weigh_pairs(weighed, pairs_a_block);
   }
   first_.back() = pair;
-  weigh_pairs();
+  weigh_pairs(weighed, pair - weighed);
 }
 
 template <int Dim, class Scalar>
-void UpdatedSimulation<Dim, Scalar>::weigh_pairs() {
+void UpdatedSimulation<Dim, Scalar>::weigh_pairs(int begin, int size) {
   using Block = PairBlock<Scalar>;
-  for (int begin = 0; begin < pairs(); begin += pairs_a_block) {
-    const int size = std::min(pairs_a_block, pairs() - begin);
-    const auto part = [&](std::vector<Scalar>& numbers) {
-      return Eigen::Map<Eigen::Array<Scalar, Eigen::Dynamic, 1>>(numbers.data() + begin, size);
-    };
-    const Block r = part(distance_squared_).template cast<Wide<Scalar>>().sqrt();
-    const auto [W, dW] = kernel_block(kernel_, r);
-    part(F_) = (dW / r).template cast<Scalar>();
-    if (scheme_.xsph) part(W_) = W.template cast<Scalar>();
-    if (scheme_.artificial_stress)
-      part(phi_) =
-          artificial_stress_weights(*scheme_.artificial_stress, kernel_, spacing_, r, W).template cast<Scalar>();
-  }
+  const auto part = [&](std::vector<Scalar>& numbers) {
+    return Eigen::Map<Eigen::Array<Scalar, Eigen::Dynamic, 1>>(numbers.data() + begin, size);
+  };
+  const Block r = part(F_).template cast<Wide<Scalar>>().sqrt();
+  const auto [W, dW] = kernel_block(kernel_, r);
+  part(F_) = (dW / r).template cast<Scalar>();
+  if (scheme_.xsph) part(W_) = W.template cast<Scalar>();
+  if (scheme_.artificial_stress)
+    part(phi_) = artificial_stress_weights(*scheme_.artificial_stress, kernel_, spacing_, r, W).template cast<Scalar>();
 }
 
 template <int Dim, class Scalar>

@@ -131,7 +131,7 @@ class UpdatedSimulation {
 
   void hold(Field<Dim, Scalar>& field) const;
 
-  void weigh_pairs();
+  void weigh_pairs(int begin, int size);
   void store_stresses(const UpdatedState<Dim, Scalar>& state);
   template <bool artificial, Viscous viscous>
   void sum_forces(const UpdatedState<Dim, Scalar>& state, Field<Dim, Scalar>& acceleration);
@@ -154,13 +154,12 @@ class UpdatedSimulation {
   UpdatedState<Dim, Scalar> base_state_;
 
   NeighbourList<Dim> neighbours_;
-  std::vector<int> first_;                ///< pairs of a and some b > a: first_[a] … first_[a+1] − 1
-  std::vector<int> neighbour_;            ///< b, per pair
-  Field<Dim, Scalar> separation_;         ///< r_ab, per pair
-  std::vector<Scalar> distance_squared_;  ///< r², per pair
-  std::vector<Scalar> F_;                 ///< W'(r)/r, per pair
-  std::vector<Scalar> W_;                 ///< per pair, with XSPH
-  std::vector<Scalar> phi_;               ///< per pair, with artificial stress
+  std::vector<int> first_;         ///< pairs of a and some b > a: first_[a] … first_[a+1] − 1
+  std::vector<int> neighbour_;     ///< b, per pair
+  Field<Dim, Scalar> separation_;  ///< r_ab, per pair
+  std::vector<Scalar> F_;          ///< W'(r)/r, per pair
+  std::vector<Scalar> W_;          ///< per pair, with XSPH
+  std::vector<Scalar> phi_;        ///< per pair, with artificial stress
 
   TensorField<Dim, Scalar> stress_;             ///< σ/ρ²
   TensorField<Dim, Scalar> artificial_stress_;  ///< R

@@ -43,7 +43,7 @@ KernelBlock<Block> kernel_block(const Kernel<Dim>& kernel, const Block& r) {
   if (powers.empty())
     return {r.unaryExpr([&](const Scalar& x) { return kernel.value(x); }),
             r.unaryExpr([&](const Scalar& x) { return kernel.slope(x); })};
-  const Block q = r / Scalar(kernel.smoothing_length());
+  const Block q = Scalar(1.0 / kernel.smoothing_length()) * r;
   KernelBlock<Block> sum{Block::Zero(r.size()), Block::Zero(r.size())};
   for (const auto& term : powers) {
     const Block base = (Scalar(term.knot) - q).max(Scalar(0));
