@@ -228,6 +228,19 @@ TEST_CASE("ul: a bar of uniform expansion follows the exact density", "[fast]") 
   CHECK(std::abs(state.deviatoric_stress[7](0, 0) - 4.0 / 3.0 * mu * c * H * time) < mu * second_order);
 }
 
+TEST_CASE("ul: energy and momenta are those of the masses", "[fast]") {
+  Problem<2> problem = updated_problem<2>();
+  UpdatedSimulation<2> simulation(problem, free_plate(problem, LatticeIndex<2>(2, 2)));
+  auto state = simulation.base_state();  // at the corners of a square of Δp, at rest but for two
+  state.velocity[1] = {3.0, 4.0};        // at (Δp, 0)
+  state.velocity[2] = {1.0, 0.0};        // at (0, Δp)
+  const double m = rho0 * dp * dp;
+  CHECK(simulation.kinetic_energy(state) == Approx(0.5 * m * 26.0).epsilon(rounding));
+  CHECK((simulation.momentum(state) - m * Vector<2>(4.0, 4.0)).norm() < rounding);
+  CHECK(simulation.angular_momentum(state)(0, 1) == Approx(m * dp * 3.0).epsilon(rounding));
+  CHECK(simulation.angular_momentum(state)(1, 0) == -simulation.angular_momentum(state)(0, 1));
+}
+
 TEST_CASE("ul: held particles stay, are not smoothed, and their density and stress go on", "[fast]") {
   for (const auto integrator : updated_integrators) {
     Problem<2> problem = with_all_terms(updated_problem<2>());
