@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "solver/updated_simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +21,11 @@ void require_updated_lagrangian(const Problem<Dim>& problem) {
     throw InvalidInput("neighbours: a run of ul needs support, not " + std::string(name_of(problem.neighbour_rule)));
   if (problem.plane != Plane::strain)
     throw InvalidInput("plane: a run of ul needs strain, not " + std::string(name_of(problem.plane)));
+}
+
+void require_compressible(const Material& material) {
+  if (!std::isfinite(material.bulk_modulus()))
+    throw InvalidInput(fmt::format("poisson_ratio: {} is not below 0.5 (scheme ul)", material.poisson_ratio()));
 }
 
 template <int Dim>
@@ -78,10 +85,12 @@ UpdatedSimulation<Dim, Scalar>::UpdatedSimulation(const Problem<Dim>& problem, c
       rates_(body.size()),
       next_rates_(body.size()) {
   require_updated_lagrangian(problem);
-  for (const auto& material : body.materials)
+  for (const auto& material : body.materials) {
+    require_compressible(material);
     substances_.push_back({static_cast<Scalar>(material.density()),
                            static_cast<Scalar>(material.bulk_modulus() / material.density()),
                            static_cast<Scalar>(material.shear_modulus())});
+  }
   for (const auto& load : body.load) load_.push_back(load.template cast<Scalar>());
   for (int a = 0; a < static_cast<int>(body.clamped.size()); ++a)
     for (int axis = 0; axis < Dim; ++axis)
@@ -165,13 +174,15 @@ void UpdatedSimulation<Dim, Scalar>::weigh_pairs(int begin, int size) {
 
 template <int Dim, class Scalar>
 void UpdatedSimulation<Dim, Scalar>::store_stresses(const UpdatedState<Dim, Scalar>& state) {
-  for (int a = 0; a < particles(); ++a) stress_[a] = stress(state, a);
-  if (const auto& artificial = scheme_.artificial_stress) {
-    ++work_.artificial_stresses;
-    for (int a = 0; a < particles(); ++a)
-      artificial_stress_[a] = artificial_stress(stress_[a], state.density[a], static_cast<Scalar>(artificial->epsilon));
+  const auto& artificial = scheme_.artificial_stress;
+  if (artificial) ++work_.artificial_stresses;
+  for (int a = 0; a < particles(); ++a) {
+    const Tensor<Dim, Scalar> sigma = stress(state, a);
+    const Scalar& rho = state.density[a];
+    stress_[a] = sigma / (rho * rho);
+    if (artificial)
+      artificial_stress_[a] = artificial_stress<Scalar, Dim>(sigma, rho, static_cast<Scalar>(artificial->epsilon));
   }
-  for (int a = 0; a < particles(); ++a) stress_[a] /= state.density[a] * state.density[a];
 }
 
 template <int Dim, class Scalar>

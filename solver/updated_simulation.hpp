@@ -74,7 +74,8 @@ class UpdatedSimulation {
   /// A periodic box of n_1 × … × n_Dim cells of the lattice (periodic_patch).
   UpdatedSimulation(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, const UpdatedVariant& variant = {});
   /// Free particles of a body, some perhaps held or loaded. Of its neighbours nothing is used.
-  /// Both throw InvalidInput for another scheme, another rule of neighbours than `support` and plane stress.
+  /// Both throw InvalidInput for another scheme, another rule of neighbours than `support`, plane stress and materials
+  /// of Poisson's ratio 0.5 other than fluids.
   UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body, const UpdatedVariant& variant = {});
 
   int particles() const { return static_cast<int>(mass_.size()); }

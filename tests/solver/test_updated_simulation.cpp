@@ -324,7 +324,7 @@ TEST_CASE("ul: terms that the scheme does not name are not evaluated", "[fast]")
   CHECK(all.work().smoothings == 10);
 }
 
-TEST_CASE("ul: other schemes, neighbours and plane stress are refused", "[fast]") {
+TEST_CASE("ul: other schemes, neighbours, plane stress and incompressible materials are refused", "[fast]") {
   Problem<2> problem = updated_problem<2>();
   problem.scheme.formulation = Formulation::total_lagrangian_linear;
   CHECK_THROWS_WITH(UpdatedSimulation<2>(problem, LatticeIndex<2>(7, 7)), "scheme: this run is for ul, not tl-linear");
@@ -336,6 +336,10 @@ TEST_CASE("ul: other schemes, neighbours and plane stress are refused", "[fast]"
   problem.plane = Plane::stress;
   CHECK_THROWS_WITH(UpdatedSimulation<2>(problem, LatticeIndex<2>(7, 7)),
                     "plane: a run of ul needs strain, not stress");
+  problem = updated_problem<2>();
+  problem.material = Material::from_young_modulus(rho0, 1.0, 0.5);
+  CHECK_THROWS_WITH(UpdatedSimulation<2>(problem, LatticeIndex<2>(7, 7)),
+                    "poisson_ratio: 0.5 is not below 0.5 (scheme ul)");
 }
 
 TEST_CASE("ul: single precision tracks double precision", "[fast]") {
