@@ -140,7 +140,7 @@ void UpdatedSimulation<Dim, Scalar>::place(const Field<Dim, Scalar>& position) {
   ++work_.placements;
   const Scalar support = static_cast<Scalar>(kernel_.support() * (1.0 - tie_margin));
   const Scalar limit = support * support;
-  int pair = 0, weighed = 0;
+  int pair = 0;
   for (int a = 0; a < particles(); ++a) {
     first_[a] = pair;
     for (const auto& [b, image] : neighbours_.candidates(a)) {
@@ -151,11 +151,9 @@ void UpdatedSimulation<Dim, Scalar>::place(const Field<Dim, Scalar>& position) {
       F_[pair] = distance_squared;  // until the pair is weighed
       pair += distance_squared < limit ? 1 : 0;
     }
-    for (; pair - weighed >= pairs_a_block; weighed += pairs_a_block)  // while they are in the cache
-      weigh_pairs(weighed, pairs_a_block);
   }
   first_.back() = pair;
-  weigh_pairs(weighed, pair - weighed);
+  for (int begin = 0; begin < pair; begin += pairs_a_block) weigh_pairs(begin, std::min(pairs_a_block, pair - begin));
 }
 
 template <int Dim, class Scalar>
