@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "solver/updated_bloch.hpp"
+
+#include <fmt/format.h>
+
+namespace sphstab::solver {
+namespace {
+
+using Complex = std::complex<double>;
+
+Eigen::VectorXd derivatives(const FlatVector<Dual>& numbers) {
+  return numbers.unaryExpr([](const Dual& x) { return x.derivative; });
+}
+
+/// The state moved infinitesimally along a direction.
+template <int Dim>
+UpdatedState<Dim, Dual> moved(UpdatedState<Dim, Dual> state, const Eigen::VectorXd& direction) {
+  FlatVector<Dual> numbers = flat_state(state);
+  for (int i = 0; i < numbers.size(); ++i) numbers[i].derivative = direction[i];
+  set_flat_state(numbers, state);
+  return state;
+}
+
+/// The matrix of a map of real fields, `size` numbers a particle, that commutes with translations, for waves e^{ik·x}:
+/// column by column from the real and the imaginary part of the wave.
+template <int Dim, class Map>
+Eigen::MatrixXcd bloch_matrix(const Body<Dim>& patch, const Vector<Dim>& wave_vector, int size, const Map& map) {
+  const auto wave = bloch_wave<Dim>(patch, wave_vector, Vector<Dim, Complex>::Unit(0));
+  Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(size, size);
+  for (int column = 0; column < size; ++column)
+    for (const Complex unit : {Complex(1.0, 0.0), Complex(0.0, 1.0)}) {
+      Eigen::VectorXd direction = Eigen::VectorXd::Zero(size * patch.size());
+      for (int a = 0; a < patch.size(); ++a) direction[size * a + column] = (std::conj(unit) * wave[a][0]).real();
+      const Eigen::VectorXd image = map(direction);
+      for (int a = 0; a < patch.size(); ++a)
+        matrix.col(column) += unit * std::conj(wave[a][0]) * image.segment(size * a, size);
+    }
+  return matrix / patch.size();
+}
+
+}  // namespace
+
+template <int Dim>
+Eigen::VectorXd step_derivative(UpdatedSimulation<Dim, Dual>& simulation, const UpdatedState<Dim, Dual>& state,
+                                const Eigen::VectorXd& direction, double time_step) {
+  auto image = moved(state, direction);
+  if (simulation.advance(image, time_step))
+    throw InvalidInput(fmt::format("time_step: a step of {} leaves the finite numbers", time_step));
+  return derivatives(flat_state(image));
+}
+
+template <int Dim>
+Eigen::MatrixXcd bloch_step_matrix(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
+                                   const Vector<Dim>& wave_vector, double time_step, const UpdatedVariant& variant) {
+  UpdatedSimulation<Dim, Dual> simulation(problem, cells, variant);
+  UpdatedState<Dim, Dual> base = simulation.base_state();
+  if (problem.integrator == Integrator::predictor_corrector_pec)
+    base.stored = UpdatedRates<Dim, Dual>(base.particles());
+  return bloch_matrix<Dim>(
+      periodic_patch(problem, cells), wave_vector, numbers_per_particle(base),
+      [&](const Eigen::VectorXd& direction) { return step_derivative(simulation, base, direction, time_step); });
+}
+
+template <int Dim>
+Eigen::MatrixXcd bloch_rate_matrix(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
+                                   const Vector<Dim>& wave_vector, const UpdatedVariant& variant) {
+  UpdatedSimulation<Dim, Dual> simulation(problem, cells, variant);
+  const UpdatedState<Dim, Dual>& base = simulation.base_state();
+  return bloch_matrix<Dim>(
+      periodic_patch(problem, cells), wave_vector, numbers_per_particle(base), [&](const Eigen::VectorXd& direction) {
+        const auto state = moved(base, direction);
+        UpdatedRates<Dim, Dual> rates(state.particles());
+        simulation.place(state.position);
+        simulation.forces(state, rates.acceleration);
+        const auto& smoothed = simulation.smoothed(state);
+        simulation.rates(state, smoothed, rates);
+        return derivatives(
+            flat_state(UpdatedState<Dim, Dual>{smoothed, rates.acceleration, rates.density, rates.deviatoric_stress}));
+      });
+}
+
+template Eigen::VectorXd step_derivative(UpdatedSimulation<1, Dual>&, const UpdatedState<1, Dual>&,
+                                         const Eigen::VectorXd&, double);
+template Eigen::MatrixXcd bloch_step_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&, double,
+                                            const UpdatedVariant&);
+template Eigen::MatrixXcd bloch_rate_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&,
+                                            const UpdatedVariant&);
+template Eigen::VectorXd step_derivative(UpdatedSimulation<2, Dual>&, const UpdatedState<2, Dual>&,
+                                         const Eigen::VectorXd&, double);
+template Eigen::MatrixXcd bloch_step_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&, double,
+                                            const UpdatedVariant&);
+template Eigen::MatrixXcd bloch_rate_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&,
+                                            const UpdatedVariant&);
+template Eigen::VectorXd step_derivative(UpdatedSimulation<3, Dual>&, const UpdatedState<3, Dual>&,
+                                         const Eigen::VectorXd&, double);
+template Eigen::MatrixXcd bloch_step_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&, double,
+                                            const UpdatedVariant&);
+template Eigen::MatrixXcd bloch_rate_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&,
+                                            const UpdatedVariant&);
+
+}  // namespace sphstab::solver
