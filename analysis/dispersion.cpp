@@ -26,14 +26,6 @@ Vector<Dim, std::complex<double>> eigenvector(const Tensor<Dim>& M, std::complex
 }
 
 template <int Dim>
-Branch branch_of(std::complex<double> omega_squared, const Vector<Dim, std::complex<double>>& polarisation,
-                 const Vector<Dim>& wave_vector) {
-  if (omega_squared.imag() != 0.0) return Branch::coupled;
-  const double along = std::abs((wave_vector.transpose() * polarisation).value());
-  return 2.0 * along * along >= wave_vector.squaredNorm() ? Branch::longitudinal : Branch::transverse;
-}
-
-template <int Dim>
 bool is_multiple(const Vector<Dim, std::complex<double>>& values, int i) {
   for (int j = 0; j < Dim; ++j)
     if (j != i && std::abs(values[j] - values[i]) <= same_branch * std::abs(values[i])) return true;
@@ -41,6 +33,13 @@ bool is_multiple(const Vector<Dim, std::complex<double>>& values, int i) {
 }
 
 }  // namespace
+
+template <int Dim>
+Branch branch_of(const Vector<Dim, std::complex<double>>& polarisation, const Vector<Dim>& wave_vector) {
+  const double along = std::abs((wave_vector.transpose() * polarisation).value());
+  return 2.0 * along * along >= wave_vector.squaredNorm() * polarisation.squaredNorm() ? Branch::longitudinal
+                                                                                       : Branch::transverse;
+}
 
 template <int Dim>
 LinearWaves<Dim>::LinearWaves(const Problem<Dim>& problem)
@@ -97,7 +96,8 @@ std::array<WaveBranch<Dim>, Dim> UpdatedWaves<Dim>::operator()(const Vector<Dim>
   for (int i = 0; i < Dim; ++i) {
     const Complex value = omega_squared[i], omega = std::sqrt(value);
     const auto x = eigenvector<Dim>(M, value), y = eigenvector<Dim>(M.transpose(), value);
-    waves[i] = {branch_of<Dim>(value, x, wave_vector), value, growth_rate_of(value), {}, {}};
+    waves[i] = {
+        value.imag() != 0.0 ? Branch::coupled : branch_of<Dim>(x, wave_vector), value, growth_rate_of(value), {}, {}};
     if (omega.real() <= 0.0) continue;
     waves[i].phase_speed = omega.real() / wave_vector.norm();
     const Complex overlap = (y.transpose() * x).value();
@@ -128,7 +128,10 @@ std::array<WaveBranch<Dim>, Dim> DispersionRelation<Dim>::operator()(const Vecto
 }
 
 template class DispersionRelation<1>;
+template Branch branch_of(const Vector<1, std::complex<double>>&, const Vector<1>&);
 template class DispersionRelation<2>;
+template Branch branch_of(const Vector<2, std::complex<double>>&, const Vector<2>&);
 template class DispersionRelation<3>;
+template Branch branch_of(const Vector<3, std::complex<double>>&, const Vector<3>&);
 
 }  // namespace sphstab::analysis

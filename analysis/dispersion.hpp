@@ -41,6 +41,10 @@ class LinearWaves {
   ModeSteps steps_;
 };
 
+/// Longitudinal where the polarisation is nearer to k than to its normal.
+template <int Dim>
+Branch branch_of(const Vector<Dim, std::complex<double>>& polarisation, const Vector<Dim>& wave_vector);
+
 /// The waves of `ul` without viscosity (theory.md §3): ω² the eigenvalues of M(k), and from its right and left
 /// eigenvectors x, y the group velocity ∂ω/∂k_j = y·(∂M/∂k_j) x / (2ω y·x). A real branch is longitudinal where x is
 /// nearer to k than to its normal; complex pairs are `coupled`.
@@ -69,7 +73,10 @@ class DispersionRelation {
 };
 
 extern template class DispersionRelation<1>;
+extern template Branch branch_of(const Vector<1, std::complex<double>>&, const Vector<1>&);
 extern template class DispersionRelation<2>;
+extern template Branch branch_of(const Vector<2, std::complex<double>>&, const Vector<2>&);
 extern template class DispersionRelation<3>;
+extern template Branch branch_of(const Vector<3, std::complex<double>>&, const Vector<3>&);
 
 }  // namespace sphstab::analysis

@@ -29,6 +29,8 @@ constexpr double exit_tolerance = 1e-13;
 constexpr double search_tolerance = 1e-11;
 constexpr double search_width = 1e-9;
 constexpr int most_rounds = 40;
+/// So far beyond its exit, relative, an eigenvalue is the largest of its mode.
+constexpr double beyond_exit = 1e-6;
 /// Exits beyond this times that of the stiffest mode are not told apart.
 constexpr double cap_margin = 1.1;
 /// Rates below this, in units of c_p/Δp, are roundings of zero: nothing moves.
@@ -46,6 +48,16 @@ auto moving_block(const UpdatedWave<Dim>& wave, Integrator integrator, double ti
   const auto size = E.rows() - Dim;
   using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4 * Dim, 4 * Dim>;
   return Block(E.bottomRightCorner(size, size));
+}
+
+/// What moves in the eigenvector of a matrix whose eigenvalue has the largest `size`: its first components.
+template <int Dim, class Matrix, class Size>
+Vector<Dim, std::complex<double>> leading_motion(const Matrix& matrix, const Size& size) {
+  const Eigen::EigenSolver<Matrix> solver(matrix);
+  int leading = 0;
+  for (int i = 1; i < matrix.rows(); ++i)
+    if (size(solver.eigenvalues()[i]) > size(solver.eigenvalues()[leading])) leading = i;
+  return solver.eigenvectors().col(leading).template head<Dim>();
 }
 
 /// The part of each ω² that belongs to `part` of M, xᵀ part y / xᵀ y of its left and right eigenvectors, by the
@@ -122,15 +134,21 @@ double UpdatedModes<Dim>::radius(const Vector<Dim>& wave_vector, double time_ste
 }
 
 template <int Dim>
-double UpdatedModes<Dim>::damped_growth(const Vector<Dim>& wave_vector) const {
+Eigen::Matrix<double, 2 * Dim, 2 * Dim> UpdatedModes<Dim>::generator(const Vector<Dim>& wave_vector) const {
   const UpdatedWave<Dim> wave = scheme_(wave_vector);
   const Tensor<Dim> M = wave.dynamical_matrix();
   const double unit = std::sqrt(M.norm());
-  if (unit * unit <= wave.rounding) return 0.0;
-  Eigen::Matrix<double, 2 * Dim, 2 * Dim> generator;
-  generator << Tensor<Dim>::Zero(), unit * Tensor<Dim>::Identity(), -M / unit, wave.of_velocity;
-  const double rate = Eigen::EigenSolver<decltype(generator)>(generator, false).eigenvalues().real().maxCoeff();
-  return rate <= solver_noise * unit + few_roundings * generator.norm() ? 0.0 : rate;
+  Eigen::Matrix<double, 2 * Dim, 2 * Dim> generator = Eigen::Matrix<double, 2 * Dim, 2 * Dim>::Zero();
+  if (unit * unit > wave.rounding)
+    generator << Tensor<Dim>::Zero(), unit * Tensor<Dim>::Identity(), -M / unit, wave.of_velocity;
+  return generator;
+}
+
+template <int Dim>
+double UpdatedModes<Dim>::damped_growth(const Vector<Dim>& wave_vector) const {
+  const auto matrix = generator(wave_vector);
+  const double rate = Eigen::EigenSolver<std::decay_t<decltype(matrix)>>(matrix, false).eigenvalues().real().maxCoeff();
+  return rate <= solver_noise * matrix(0, Dim) + few_roundings * matrix.norm() ? 0.0 : rate;
 }
 
 template <int Dim>
@@ -141,7 +159,9 @@ std::optional<NeverStable<Dim>> UpdatedModes<Dim>::continuous_growth() const {
   }
   const auto fastest = scan_.maximum([&](const Vector<Dim>& k) { return damped_growth(k); });
   if (!(fastest.value > 0.0)) return std::nullopt;
-  CriticalMode<Dim> mode = mode_at(fastest.wave_vector);
+  const Vector<Dim, std::complex<double>> motion =
+      leading_motion<Dim>(generator(fastest.wave_vector), [](std::complex<double> rate) { return rate.real(); });
+  CriticalMode<Dim> mode = mode_of(fastest.wave_vector, motion);
   mode.omega = fastest.value;
   return NeverStable<Dim>{fastest.value, mode};
 }
@@ -181,16 +201,25 @@ std::optional<WeaklyUnstable<Dim>> UpdatedModes<Dim>::weak_growth() const {
   const int exponent = second_order ? 2 : 4;
   const auto fastest = scan_.maximum(coefficient);
   if (!(fastest.value > coefficient_noise * std::pow(range_.stiffest.omega, exponent))) return std::nullopt;
-  return WeaklyUnstable<Dim>{fastest.value, exponent, mode_at(fastest.wave_vector)};
+  return WeaklyUnstable<Dim>{fastest.value, exponent, stiffest_at(fastest.wave_vector)};
 }
 
 template <int Dim>
-CriticalMode<Dim> UpdatedModes<Dim>::mode_at(const Vector<Dim>& wave_vector) const {
+CriticalMode<Dim> UpdatedModes<Dim>::stiffest_at(const Vector<Dim>& wave_vector) const {
   Problem<Dim> inviscid = problem_;
   inviscid.scheme.viscosity.reset();
   const Vector<Dim> k = tidy<Dim>(BrillouinZone<Dim>(problem_.lattice), wave_vector);
   const auto stiffest = DispersionRelation<Dim>(inviscid)(k).back();
   return {k, stiffest.branch, std::sqrt(std::max(stiffest.omega_squared.real(), 0.0))};
+}
+
+template <int Dim>
+CriticalMode<Dim> UpdatedModes<Dim>::mode_of(const Vector<Dim>& wave_vector,
+                                             const Vector<Dim, std::complex<double>>& motion) const {
+  const Vector<Dim> k = tidy<Dim>(BrillouinZone<Dim>(problem_.lattice), wave_vector);
+  const double omega_squared =
+      motion.dot(scheme_(wave_vector).dynamical_matrix() * motion).real() / motion.squaredNorm();
+  return {k, branch_of<Dim>(motion, k), std::sqrt(std::max(omega_squared, 0.0))};
 }
 
 template <int Dim>
@@ -248,9 +277,12 @@ StepLimit<Dim> UpdatedModes<Dim>::limit() const {
     if (const auto weak = weak_growth()) return *weak;
   const auto first = first_exit(negligible_growth_per_step);
   if (!first) return UnconditionallyStable{};
+  const Vector<Dim, std::complex<double>> motion = leading_motion<Dim>(
+      moving_block(scheme_(first->wave_vector), problem_.integrator, first->value * (1.0 + beyond_exit)),
+      [](std::complex<double> eigenvalue) { return std::abs(eigenvalue); });
   return ConditionallyStable<Dim>{first->value,
                                   {first->value * (1.0 - search_width), first->value * (1.0 + search_width)},
-                                  mode_at(first->wave_vector),
+                                  mode_of(first->wave_vector, motion),
                                   BracketKind::searched};
 }
 

@@ -43,13 +43,15 @@ class UpdatedModes {
 
   bool inviscid_kicks() const;
   double radius(const Vector<Dim>& wave_vector, double time_step) const;
+  Eigen::Matrix<double, 2 * Dim, 2 * Dim> generator(const Vector<Dim>& wave_vector) const;
   double damped_growth(const Vector<Dim>& wave_vector) const;
   std::optional<NeverStable<Dim>> continuous_growth() const;
   StepLimit<Dim> frequency_limit() const;
   std::optional<WeaklyUnstable<Dim>> weak_growth() const;
   std::optional<double> exit(const Vector<Dim>& wave_vector, double threshold, double cap) const;
   std::optional<ZonePoint<Dim>> first_exit(double threshold) const;
-  CriticalMode<Dim> mode_at(const Vector<Dim>& wave_vector) const;
+  CriticalMode<Dim> stiffest_at(const Vector<Dim>& wave_vector) const;
+  CriticalMode<Dim> mode_of(const Vector<Dim>& wave_vector, const Vector<Dim, std::complex<double>>& motion) const;
 
   Problem<Dim> problem_;
   UpdatedLagrangian<Dim> scheme_;

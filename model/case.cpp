@@ -204,6 +204,8 @@ Material make_material(const Case& input) {
   if (const auto sound_speed = input.number("sound_speed"))
     return Material::from_sound_speed(density, *sound_speed, input.required_number("shear_modulus"));
   if (input.has("bulk_modulus") || input.has("shear_modulus")) {
+    if (!input.has("bulk_modulus"))
+      throw InvalidInput("bulk_modulus: missing (with shear_modulus; or sound_speed for ul)");
     const double bulk_modulus = input.required_number("bulk_modulus");
     return Material::from_bulk_modulus(density, bulk_modulus, input.required_number("shear_modulus"));
   }

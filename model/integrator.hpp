@@ -31,6 +31,9 @@ struct Names<Integrator> {
        {Integrator::predictor_corrector_pec, "predictor-corrector-pec"}}};
 };
 
+/// Those of total-Lagrangian schemes.
+inline constexpr std::array total_lagrangian_integrators{Names<Integrator>::table[0], Names<Integrator>::table[1]};
+
 /// The error for an integrator that a total-Lagrangian scheme is given.
 inline InvalidInput for_updated_lagrangian_only(Integrator integrator) {
   return InvalidInput("integrator: " + std::string(name_of(integrator)) + " is for the scheme ul only");

@@ -470,7 +470,7 @@ std::vector<MakeCase> units() {
 
 std::vector<MakeCase> dampings() {
   std::vector<MakeCase> cases;
-  for (const auto& [integrator, name] : Names<Integrator>::table)
+  for (const auto& [integrator, name] : total_lagrangian_integrators)
     for (const double rate : {1e-6, 0.1, 2.0, 10.0, 60.0}) cases.push_back(damped_chain(integrator, rate));
   return cases;
 }

@@ -230,13 +230,14 @@ std::vector<std::string> failures_of(const std::vector<Windows>& all) {
 }
 
 constexpr const char* summary_text =
-    R"(Gray's scheme in isotropic tension, P = {pressure} ρ c0², μ = {shear_modulus} ρ c0², XSPH with {xsph}, artificial stress with
-n = 4 that follows the perturbed stress: the ε between 0 and {largest_epsilon} for which no wave of the lattice grows by more than
+    R"(Gray's scheme in isotropic tension, P = {pressure} ρ c0², μ = {shear_modulus} ρ c0² with ρ the density under stress
+(`--density {density} --pressure={pressure} --shear-modulus {shear_modulus} --sound-speed 1`), XSPH with {xsph}, artificial stress with n = 4 that follows the perturbed stress: the ε between 0 and {largest_epsilon} for which no wave of the lattice grows by more than
 {negligible_growth} c_p/Δp.
 
 {windows}
 On the square lattice what cures clumping drives the transverse wave of its zone boundary, so that most h/Δp have no window; at
-h = 1.1 Δp it is what the two conditions at k = (π/Δp, 0) leave. Windows end from above as well, and some have gaps: narrow
+h = 1.1 Δp it is what the two conditions at k = (π/Δp, 0) leave, and wider supports have one again: that no ε stabilises the
+square lattice holds of the cubic spline at h = 1 and 1.2 to 1.5 Δp only. Windows end from above as well, and some have gaps: narrow
 tongues of complex ω² (flutter). Of the bars stretched along one axis that are drawn below, {growing} of {bars} grow.
 
 The price of ε = {epsilon}, the factor on the modulus of long waves in tension, whatever the stress:
@@ -298,7 +299,7 @@ Report tension_report(const Progress& progress) {
   long growing = 0;
   for (const auto& bars : of_stretch) growing += bars.growing();
   report.summary = fmt::format(summary_text, fmt::arg("pressure", pressure), fmt::arg("shear_modulus", shear_modulus),
-                               fmt::arg("xsph", xsph), fmt::arg("largest_epsilon", analysis::largest_epsilon),
+                               fmt::arg("xsph", xsph), fmt::arg("density", 1.0 - pressure), fmt::arg("largest_epsilon", analysis::largest_epsilon),
                                fmt::arg("negligible_growth", analysis::negligible_growth),
                                fmt::arg("windows", io::to_markdown(table_of(all))), fmt::arg("growing", growing),
                                fmt::arg("bars", of_stretch.size() * of_stretch.front().size()),

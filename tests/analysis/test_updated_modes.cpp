@@ -208,3 +208,33 @@ TEST_CASE("given wave vectors are asked alone", "[fast]") {
   CHECK(mode_radius<2>(viscous, k, 0.99999 * alone) <= 1.0 + 1e-9);
   CHECK(mode_radius<2>(viscous, k, 1.00001 * alone) > 1.0 + 1e-9);
 }
+
+TEST_CASE("with viscosity the critical mode is the one that grows", "[fast]") {
+  // At (π/Δp, 0) A = 0, the friction along k is three times that across, and the wave along k leaves the circle first.
+  auto problem = updated_problem<2>(LatticeKind::square, KernelFamily::cubic_spline, 1.3, 0.5, 0.0);
+  problem.scheme.viscosity = Viscosity{1.0, 0.1};
+  const auto stable = std::get<ConditionallyStable<2>>(UpdatedModes<2>(problem).limit());
+  CHECK(stable.mode.wave_vector.isApprox(Vector<2>(std::numbers::pi, 0.0), 1e-6));
+  CHECK(stable.mode.branch == Branch::longitudinal);
+
+  // A friction of nothing leaves the fastest growth, and its wave, what they are without.
+  auto compressed = updated_problem<2>(LatticeKind::hexagonal, KernelFamily::cubic_spline, 1.3, 0.5, 0.02);
+  compressed.scheme.xsph = Xsph{0.5};
+  const auto without = std::get<NeverStable<2>>(UpdatedModes<2>(compressed).limit());
+  compressed.scheme.viscosity = Viscosity{1e-8, 0.1};
+  const auto with = std::get<NeverStable<2>>(UpdatedModes<2>(compressed).limit());
+  CHECK(without.mode.branch == Branch::transverse);
+  CHECK(with.mode.branch == Branch::transverse);
+  CHECK(with.growth_rate == Approx(without.growth_rate).epsilon(1e-6));
+}
+
+TEST_CASE("a weight that divides by W(spacing) = 0 is refused, the other is not", "[fast]") {
+  auto problem = updated_problem<1>(LatticeKind::chain, KernelFamily::cubic_spline, 0.45, 0.5, -0.02);
+  problem.lattice = problem.lattice.deformed(Tensor<1>(0.5));
+  problem.scheme.artificial_stress = ArtificialStress{.epsilon = 0.3};
+  CHECK_THROWS_WITH(UpdatedModes<1>(problem),
+                    "artificial_stress_weight: kernel-ratio divides by W(spacing), which is 0 with this smoothing "
+                    "length; distance-ratio does not");
+  problem.scheme.artificial_stress->weight = ArtificialStressWeight::distance_ratio;
+  CHECK_NOTHROW(UpdatedModes<1>(problem));
+}

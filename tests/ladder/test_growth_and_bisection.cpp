@@ -36,7 +36,7 @@ TEMPLATE_TEST_CASE_SIG("rung 5: above the limit a seeded mode grows by ln of the
   const auto cells = ladder::running_patch<Dim>();
   constexpr long horizon = 400;
   for (auto& [name, problem] : ladder::every_variant<Dim>())
-    for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
+    for (const auto& [integrator, integrator_name] : total_lagrangian_integrators) {
       problem.integrator = integrator;
       INFO(name << ", " << integrator_name);
       const auto limit = std::get<analysis::ConditionallyStable<Dim>>(analysis::patch_limit(problem, cells));
@@ -78,7 +78,7 @@ TEST_CASE("rung 6: bisection finds the theory's limit for kernels, lattices, sup
     for (const auto kernel :
          {KernelFamily::cubic_spline, KernelFamily::gaussian, KernelFamily::wendland_c2, KernelFamily::sinc_5})
       for (const double h_over_spacing : {0.93, 1.31, 1.87})
-        for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
+        for (const auto& [integrator, integrator_name] : total_lagrangian_integrators) {
           INFO(name_of(kernel) << " " << name_of(lattice) << " h/spacing " << h_over_spacing << " " << integrator_name);
           auto problem = ladder::basic_problem<2>(lattice, kernel, h_over_spacing);
           problem.integrator = integrator;
@@ -89,7 +89,7 @@ TEST_CASE("rung 6: bisection finds the theory's limit for kernels, lattices, sup
 TEMPLATE_TEST_CASE_SIG("rung 6: bisection finds the theory's limit for every term of the scheme",
                        "[ladder][theory-vs-bisection]", ((int Dim), Dim), 1, 2, 3) {
   for (auto& [name, problem] : ladder::every_variant<Dim>())
-    for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
+    for (const auto& [integrator, integrator_name] : total_lagrangian_integrators) {
       // A damped mode grows slowly near its limit, so that its runs are long: in 3D one case stands for all.
       const bool is_long = Dim == 3 && problem.scheme.damping;
       if (is_long && (integrator != Integrator::leapfrog || name != "damped cubic")) continue;
@@ -107,8 +107,7 @@ TEST_CASE("rung 6: the limit of a patch approaches the bulk limit from above as 
     double deficit_before = 1.0;
     for (const int n : {16, 32, 64}) {
       INFO("patch " << n);
-      const auto found =
-          study::compare_step<2>(problem, PeriodicPatch<2>{{n, n}}, {.tolerance = bisection_tolerance});
+      const auto found = study::compare_step<2>(problem, PeriodicPatch<2>{{n, n}}, {.tolerance = bisection_tolerance});
       REQUIRE(found.relative_difference());
       CHECK(*found.relative_difference() < bisection_tolerance);
       CHECK(*found.run.critical_time_step > *found.bulk_theory * (1.0 - bisection_tolerance));

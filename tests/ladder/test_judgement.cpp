@@ -51,7 +51,7 @@ TEST_CASE("the law of growth knows both ways to leave the unit circle, so that f
   // square root soon after. Halving a bracket of 20 % to 1e-6 takes 18 runs besides the scan.
   constexpr int enough_runs = 22;
   for (const double damping : {0.0, 0.02, 0.05, 0.4})
-    for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
+    for (const auto& [integrator, integrator_name] : total_lagrangian_integrators) {
       INFO("damping " << damping << " " << integrator_name);
       auto problem = ladder::basic_problem<1>(LatticeKind::chain, KernelFamily::cubic_spline, 1.2);
       problem.integrator = integrator;

@@ -75,7 +75,7 @@ TEMPLATE_TEST_CASE_SIG("rung 2: the dynamical matrix is the running solver's for
 TEMPLATE_TEST_CASE_SIG("rung 3: the amplification matrix is one real time step, for every mode and integrator",
                        "[ladder]", ((int Dim), Dim), 1, 2, 3) {
   for (auto& [name, problem] : ladder::every_variant<Dim>())
-    for (const auto& [integrator, integrator_name] : Names<Integrator>::table)
+    for (const auto& [integrator, integrator_name] : total_lagrangian_integrators)
       for (const auto& cells : ladder::patches<Dim>()) {
         problem.integrator = integrator;
         const auto patch = periodic_patch<Dim>(problem, cells);
@@ -97,7 +97,7 @@ TEMPLATE_TEST_CASE_SIG(
   constexpr int state = 2 * Dim;
   const auto cells = ladder::small_patch<Dim>();
   for (auto& [name, problem] : ladder::every_variant<Dim>())
-    for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
+    for (const auto& [integrator, integrator_name] : total_lagrangian_integrators) {
       problem.integrator = integrator;
       const auto patch = periodic_patch<Dim>(problem, cells);
       const double time_step = 0.9 * patch_step<Dim>(problem, cells);
@@ -118,7 +118,7 @@ TEMPLATE_TEST_CASE_SIG("rung 4: above the limit the spectral radius of the solve
                        "[ladder]", ((int Dim), Dim), 1, 2, 3) {
   const auto cells = ladder::small_patch<Dim>();
   for (auto& [name, problem] : ladder::every_variant<Dim>())
-    for (const auto& [integrator, integrator_name] : Names<Integrator>::table) {
+    for (const auto& [integrator, integrator_name] : total_lagrangian_integrators) {
       problem.integrator = integrator;
       const auto patch = periodic_patch<Dim>(problem, cells);
       const double time_step = 1.05 * patch_step<Dim>(problem, cells);
