@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "analysis/gradient_symbol.hpp"
+#include "analysis/amplification.hpp"
 #include "analysis/growth.hpp"
 #include "analysis/updated_lagrangian.hpp"
 #include "model/lattice_index.hpp"
@@ -180,6 +181,21 @@ TEST_CASE("flutter in a narrow tongue is found", "[fast]") {
   CHECK(found.fastest.branch == Branch::coupled);
   problem.scheme.artificial_stress->linearisation = ArtificialStressLinearisation::frozen;
   CHECK(growth_range(problem).growth_rate == 0.0);
+}
+
+TEST_CASE("flutter in a tongue narrower than the grid is found by the discriminant", "[fast]") {
+  auto problem = updated_problem<2>(LatticeKind::hexagonal, KernelFamily::cubic_spline, 1.5, 0.3, -0.05);
+  problem.material = Material::from_sound_speed(1.05, 1.0, 0.3);
+  problem.scheme.artificial_stress = ArtificialStress{.epsilon = 0.05};
+  problem.scheme.xsph = Xsph{0.5};
+  const auto range = growth_range(problem);
+  const Vector<2>& k = range.fastest.wave_vector;
+  CHECK(range.growth_rate > 1e-5);
+  CHECK(range.growth_rate < 2e-5);
+  CHECK(range.fastest.branch == Branch::coupled);
+  // The pair at that wave vector is complex by its own trace and determinant.
+  const Tensor<2> M = dynamical_matrix(problem, k);
+  CHECK(std::pow(M(0, 0) - M(1, 1), 2) + 4.0 * M(0, 1) * M(1, 0) < 0.0);
 }
 
 TEST_CASE("a rotated body grows at the same rate", "[fast]") {
