@@ -246,7 +246,8 @@ GrowthRange<Dim> growth_range(const Problem<Dim>& problem, const ZoneScan<Dim>& 
 }
 
 template <int Dim>
-std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem) {
+std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem,
+                                                 const std::function<void(double)>& progress) {
   EpsilonScan<Dim> scan(problem);
   if (!scan.acts()) {
     if (!scan.stable(0.0)) return {};
@@ -261,18 +262,19 @@ std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem) {
     if (now && !before) intervals.push_back({i == 0 ? 0.0 : scan.edge(epsilon, previous), largest_epsilon});
     if (before && !now) intervals.back().to = scan.edge(previous, epsilon);
     before = now;
+    if (progress) progress(static_cast<double>(i) / steps);
   }
   return intervals;
 }
 
 template GrowthRange<1> growth_range(const Problem<1>&);
 template GrowthRange<1> growth_range(const Problem<1>&, const ZoneScan<1>&);
-template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<1>&);
+template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<1>&, const std::function<void(double)>&);
 template GrowthRange<2> growth_range(const Problem<2>&);
 template GrowthRange<2> growth_range(const Problem<2>&, const ZoneScan<2>&);
-template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<2>&);
+template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<2>&, const std::function<void(double)>&);
 template GrowthRange<3> growth_range(const Problem<3>&);
 template GrowthRange<3> growth_range(const Problem<3>&, const ZoneScan<3>&);
-template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<3>&);
+template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<3>&, const std::function<void(double)>&);
 
 }  // namespace sphstab::analysis

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "analysis/critical_step.hpp"
@@ -43,19 +44,21 @@ inline constexpr double largest_epsilon = 2.0;
 inline constexpr double negligible_growth = 1e-6;
 
 /// The ε within [0, largest_epsilon] for which nothing grows, all else as in the problem (ArtificialStress's defaults
-/// where it has none); the set need not be an interval (theory.md §3). Empty where none does. M is linear in ε. Windows
-/// narrower than 0.01 (0.05 in 3-D) can be missed; edges are right to 1e-8. Tested in tests/analysis/test_growth.cpp.
+/// where it has none); the set need not be an interval (theory.md §3). Empty where none does. Tells how far it is. M is
+/// linear in ε. Windows narrower than 0.01 (0.05 in 3-D) can be missed; edges are right to 1e-8. Tested in
+/// tests/analysis/test_growth.cpp.
 template <int Dim>
-std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem);
+std::vector<EpsilonInterval> stabilising_epsilon(const Problem<Dim>& problem,
+                                                 const std::function<void(double fraction)>& progress = nullptr);
 
 extern template GrowthRange<1> growth_range(const Problem<1>&);
 extern template GrowthRange<1> growth_range(const Problem<1>&, const ZoneScan<1>&);
-extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<1>&);
+extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<1>&, const std::function<void(double)>&);
 extern template GrowthRange<2> growth_range(const Problem<2>&);
 extern template GrowthRange<2> growth_range(const Problem<2>&, const ZoneScan<2>&);
-extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<2>&);
+extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<2>&, const std::function<void(double)>&);
 extern template GrowthRange<3> growth_range(const Problem<3>&);
 extern template GrowthRange<3> growth_range(const Problem<3>&, const ZoneScan<3>&);
-extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<3>&);
+extern template std::vector<EpsilonInterval> stabilising_epsilon(const Problem<3>&, const std::function<void(double)>&);
 
 }  // namespace sphstab::analysis

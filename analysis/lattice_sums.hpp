@@ -27,6 +27,12 @@ struct LatticeSums {
   Tensor<Dim, Scalar> Gamma;  ///< 1 / length², negative semidefinite
 };
 
+/// Whether φ is a number: kernel-ratio divides by W(Δp).
+template <int Dim>
+bool has_weight(const Kernel<Dim>& kernel, double spacing, ArtificialStressWeight weight) {
+  return weight == ArtificialStressWeight::distance_ratio || kernel.value(spacing) > 0.0;
+}
+
 /// Sums over one lattice at any k. What no term of the scheme needs is not summed.
 template <int Dim>
 class LatticeSummation {

@@ -99,8 +99,7 @@ UpdatedLagrangian<Dim>::UpdatedLagrangian(const Problem<Dim>& problem)
   largest_geometric_ = 2.0 / rho * stress_.norm() * sums_.largest_B();
   stiffness_ = problem.material.p_wave_modulus() / rho * sums_.largest_A();
   if (!problem.scheme.artificial_stress) return;
-  if (problem.scheme.artificial_stress->weight == ArtificialStressWeight::kernel_ratio &&
-      !(problem.kernel.value(problem.lattice.spacing()) > 0.0))
+  if (!has_weight(problem.kernel, problem.lattice.spacing(), problem.scheme.artificial_stress->weight))
     throw InvalidInput(
         "artificial_stress_weight: kernel-ratio divides by W(spacing), which is 0 with this smoothing "
         "length; distance-ratio does not");

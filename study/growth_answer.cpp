@@ -8,6 +8,7 @@
 
 #include "analysis/dispersion.hpp"
 #include "analysis/growth.hpp"
+#include "analysis/lattice_sums.hpp"
 #include "analysis/updated_lagrangian.hpp"
 #include "model/brillouin_zone.hpp"
 #include "study/json_values.hpp"
@@ -59,9 +60,9 @@ Json one_sided_states(Problem<Dim> problem) {
 
 /// Which ε stabilise, and the price of the smallest.
 template <int Dim>
-void add_cure(Json& answer, const Case& input) {
+void add_cure(Json& answer, const Case& input, const Progress& progress) {
   Json intervals = Json::array();
-  for (const auto& interval : analysis::stabilising_epsilon(problem_with_epsilon<Dim>(input, 1.0)))
+  for (const auto& interval : analysis::stabilising_epsilon(problem_with_epsilon<Dim>(input, 1.0), progress))
     intervals.push_back({interval.from, interval.to});
   const Json smallest = intervals.empty() ? Json() : intervals[0][0];
   answer["stabilising_epsilon"] = std::move(intervals);
@@ -84,9 +85,12 @@ Json growth_answer(const Case& input, const Request& request) {
                    : answer["growth_rate"].get<double>();
   if (request.wants("one_sided") && analysis::has_one_sided_states(problem))
     answer["one_sided"] = one_sided_states(problem);
-  if (request.wants("stabilising_epsilon") || request.wants("smallest_stabilising_epsilon") ||
-      request.wants("smallest_tension_modulus_factor"))
-    add_cure<Dim>(answer, input);
+  const auto weight =
+      from_name<ArtificialStressWeight>("artificial_stress_weight", input.required_word("artificial_stress_weight"));
+  const bool curable = analysis::has_weight(problem.kernel, problem.lattice.spacing(), weight);
+  if (curable && (request.wants("stabilising_epsilon") || request.wants("smallest_stabilising_epsilon") ||
+                  request.wants("smallest_tension_modulus_factor")))
+    add_cure<Dim>(answer, input, request.progress);
   return answer;
 }
 

@@ -201,3 +201,13 @@ TEST_CASE("growth in one dimension is a curve over half the zone", "[fast]") {
   CHECK_THROWS_WITH(study::growth_figure(case_of({{"dimension", 3}})),
                     Catch::StartsWith("figure: growth is drawn over zones of one and two dimensions, not 3"));
 }
+
+TEST_CASE("without a weight at the spacing there is growth, and no epsilon to ask for", "[fast]") {
+  // Neighbours at half the spacing, the support between the two.
+  const Json answer = growth({{"lattice", "custom"},
+                              {"primitive_vectors", {0.5, 0.0, 0.0, 0.5}},
+                              {"h_over_spacing", 0.45},
+                              {"pressure", -0.02}});
+  CHECK(answer["growth_rate"].get<double>() > 0.0);
+  CHECK_FALSE(answer.contains("stabilising_epsilon"));
+}
