@@ -51,3 +51,21 @@ TEST_CASE("a dip at a zero-energy mode is found however narrow", "[fast]") {
     CHECK(scan.maximum(dip).value == Approx(1.0).epsilon(1e-6));
   }
 }
+
+TEST_CASE("the upper bound of values that go far below zero keeps the highest of three near peaks", "[fast]") {
+  // cos 4θ peaks at 0, π/2 and π, a little higher at π; the grid has a point at π/2, and none at π. A bound that took
+  // the least value for 0 would drop the box of π.
+  const auto problem = updated_problem<1>(LatticeKind::chain, KernelFamily::cubic_spline, 1.3, 0.3, 0.0);
+  const ZoneScan<1> scan(problem);
+  constexpr int order = 2;  // times the reach of two neighbours: type 4
+  const auto value = [](const Vector<1>& k) {
+    const double f = -0.9 + std::cos(4.0 * k[0]) - 0.01 * std::cos(k[0]);
+    return EigenvalueRange{f, f};
+  };
+  const double highest = -0.9 + 1.0 + 0.01;
+  double sampled = -1.0;
+  for (const auto& k : scan.points()) sampled = std::max(sampled, value(k).high);
+  const double bound = scan.upper_bound(value, order, sampled);
+  CHECK(bound >= highest);
+  CHECK(bound < highest + 1e-9);
+}

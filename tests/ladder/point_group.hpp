@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <vector>
 
+#include "analysis/amplification.hpp"
 #include "model/lattice.hpp"
 #include "model/lattice_index.hpp"
 
@@ -41,6 +43,27 @@ inline std::size_t order_of_point_group(LatticeKind lattice) {
       break;
   }
   return 0;
+}
+
+/// The largest error at k of what the dynamical matrix owes to the lattice: waves k and −k are one, so are k and k plus
+/// reciprocal vectors, and M turns with the elements R of the point group, under which turn(R, problem) turns the base
+/// state.
+template <int Dim, class Turn>
+double symmetry_error(const Problem<Dim>& problem, const Vector<Dim>& k, const Turn& turn) {
+  using analysis::dynamical_matrix;
+  const Tensor<Dim> M = dynamical_matrix<Dim>(problem, k);
+  double worst = (dynamical_matrix<Dim>(problem, -k) - M).norm();
+  for (const Tensor<Dim>& R : point_group(problem.lattice)) {
+    auto turned = problem;
+    turn(R, turned);
+    worst = std::max(worst, (dynamical_matrix<Dim>(turned, R * k) - R * M * R.transpose()).norm());
+  }
+  for (int axis = 0; axis < Dim; ++axis)
+    for (const double shift : {1.0, -2.0}) {
+      const Vector<Dim> other = k + shift * problem.lattice.reciprocal_vectors().col(axis);
+      worst = std::max(worst, (dynamical_matrix<Dim>(problem, other) - M).norm());
+    }
+  return worst;
 }
 
 }  // namespace sphstab::ladder
