@@ -187,6 +187,8 @@ TEST_CASE("what grows in continuous time is never stable, and viscosity only slo
   // The root of r² − F_v r + ω² = 0 at the end of the zone, where F_v = 4 α h c0 W'(1)/(1 + η²).
   const double F_v = 0.3 * 4.0 * problem.kernel.slope(1.0) / 1.01;
   const double at_end = 0.5 * (F_v + std::sqrt(F_v * F_v + 4.0 * std::pow(undamped.growth_rate, 2)));
+  const auto alone = std::get<NeverStable<1>>(UpdatedModes<1>(problem, {Vector<1>(std::numbers::pi)}).limit());
+  CHECK(alone.growth_rate == Approx(at_end).epsilon(polished));
   CHECK(damped.growth_rate >= at_end * (1.0 - polished));
   CHECK(damped.growth_rate < undamped.growth_rate);
 }
