@@ -84,6 +84,10 @@ UpdatedLagrangian<Dim>::UpdatedLagrangian(const Problem<Dim>& problem)
       artificial_(Tensor<Dim>::Zero()) {
   const double square_of_c0 = problem.material.bulk_modulus() / problem.material.density();
   const double rho = density_, rho_squared = rho * rho;
+  if (problem.scheme.viscosity && problem.scheme.viscosity->pairs == ViscousPairs::approaching)
+    throw InvalidInput(
+        "viscosity_pairs: approaching has no linear theory, a force that acts on one side of rest alone; half of "
+        "viscosity_alpha on all pairs damps small waves alike");
   friction_ = problem.scheme.viscosity
                   ? problem.scheme.viscosity->alpha * problem.kernel.smoothing_length() * std::sqrt(square_of_c0)
                   : 0.0;

@@ -33,7 +33,7 @@ CaseCommand bisect_command() {
   return {"bisect",
           "the critical time step found by running the solver (or --command), beside theory",
           {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress, KeyGroup::body,
-           KeyGroup::search},
+           KeyGroup::patch, KeyGroup::search},
           study::bisection_answer,
           describe,
           status};

@@ -35,6 +35,7 @@ std::string_view group_title(KeyGroup group) {
     case KeyGroup::growth:
       return "Time step";
     case KeyGroup::body:
+    case KeyGroup::patch:
       return "Body";
     case KeyGroup::search:
       return "Search";

@@ -16,7 +16,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-constexpr std::array<std::string_view, 5> tables{"material", "body", "clamp", "traction", "probe"};
+constexpr std::array<std::string_view, 6> tables{"material", "body", "clamp", "traction", "velocity", "probe"};
 constexpr std::array<std::string_view, 3> directions{"x", "y", "z"};
 constexpr std::array<std::string_view, 2> arrangements{"lattice", "polar"};
 
@@ -34,8 +34,12 @@ const Key keys[] = {
     {"jitter", KeyKind::number, KeyGroup::body, "", "largest displacement in spacings", {.low = 0.0, .high = 0.5}},
     {"jitter_seed", KeyKind::integer, KeyGroup::body, "1", "of the jitter", {.low = 0.0}},
     {"traction", KeyKind::numbers, KeyGroup::body, "", "force per area"},
-    {"gradient", KeyKind::numbers, KeyGroup::body, "", "of the traction, row by row"},
-    {"origin", KeyKind::numbers, KeyGroup::body, "", "where the traction has the value given"},
+    {"velocity", KeyKind::numbers, KeyGroup::body, "", "at the start"},
+    {"root", KeyKind::number, KeyGroup::body, "", "x where the cantilever is clamped"},
+    {"length", KeyKind::number, KeyGroup::body, "", "of the cantilever", positive},
+    {"tip", KeyKind::number, KeyGroup::body, "", "velocity of the free end"},
+    {"gradient", KeyKind::numbers, KeyGroup::body, "", "of the traction or velocity, row by row"},
+    {"origin", KeyKind::numbers, KeyGroup::body, "", "where the traction or velocity has the value given"},
     {"centre", KeyKind::numbers, KeyGroup::body, "", "of radial and shear"},
     {"radial", KeyKind::number, KeyGroup::body, "0", "force per area away from the centre"},
     {"shear", KeyKind::number, KeyGroup::body, "0", "force per area anticlockwise about the centre"},
@@ -152,6 +156,7 @@ class SceneReader {
     for_each_of(file, "body", [&](const Document& document) { read_body(document); });
     for_each_of(file, "clamp", [&](const Document& document) { read_clamp(document); });
     for_each_of(file, "traction", [&](const Document& document) { read_traction(document); });
+    for_each_of(file, "velocity", [&](const Document& document) { read_velocity(document); });
     for_each_of(file, "probe", [&](const Document& document) { read_probe(document); });
   }
 
@@ -240,13 +245,10 @@ class SceneReader {
     scene_.tractions.push_back({shape_at<Dim>(table, "region"), read_stress(table), table.optional_number("layer")});
   }
 
-  static std::variant<AffineTraction<Dim>, CentredTraction<Dim>> read_stress(const Table& table) {
+  static std::variant<AffineField<Dim>, CentredTraction<Dim>> read_stress(const Table& table) {
     if (table.has("traction")) {
       table.refuse({"centre", "radial", "shear", "at_radius"}, "cannot be given with traction");
-      AffineTraction<Dim> affine{.value = table.matrix<Dim>("traction")};
-      if (table.has("gradient")) affine.gradient = table.matrix<Dim, Dim>("gradient");
-      if (table.has("origin")) affine.origin = table.matrix<Dim>("origin");
-      return affine;
+      return read_affine(table, "traction");
     }
     table.refuse({"gradient", "origin"}, "only with traction");
     if (!table.has("radial") && !table.has("shear"))
@@ -255,6 +257,26 @@ class SceneReader {
                                 .radial = table.number("radial"),
                                 .shear = table.number("shear"),
                                 .at_radius = table.optional_number("at_radius")};
+  }
+
+  static AffineField<Dim> read_affine(const Table& table, std::string_view value) {
+    AffineField<Dim> affine{.value = table.matrix<Dim>(value)};
+    if (table.has("gradient")) affine.gradient = table.matrix<Dim, Dim>("gradient");
+    if (table.has("origin")) affine.origin = table.matrix<Dim>("origin");
+    return affine;
+  }
+
+  void read_velocity(const Document& document) {
+    const Table table(document, {"region", "velocity", "gradient", "origin", "cantilever"});
+    const auto region = shape_at<Dim>(table, "region");
+    if (!table.has("cantilever")) return scene_.velocities.push_back({region, read_affine(table, "velocity")});
+    table.refuse({"velocity", "gradient", "origin"}, "cannot be given with cantilever");
+    const Document& cantilever = table.at("cantilever");
+    scene_.velocities.push_back(
+        {region, in_context("cantilever", [&] {
+           const Table mode(cantilever, {"root", "length", "tip"});
+           return CantileverMode{mode.number("root"), mode.number("length"), mode.number("tip")};
+         })});
   }
 
   void read_probe(const Document& document) {

@@ -43,7 +43,8 @@ constexpr std::array scheme_keys{SchemeKey{"density_in_momentum", total_lagrangi
                                  SchemeKey{"deviatoric_stress", updated_lagrangian},
                                  SchemeKey{"artificial_stress_epsilon", updated_lagrangian},
                                  SchemeKey{"xsph", updated_lagrangian},
-                                 SchemeKey{"viscosity_alpha", updated_lagrangian}};
+                                 SchemeKey{"viscosity_alpha", updated_lagrangian},
+                                 SchemeKey{"density_rate", updated_lagrangian}};
 
 /// Whether the key switches nothing on: zeros, or the default.
 bool is_neutral(const Case& input, const Key& key) {
@@ -83,12 +84,14 @@ Scheme make_scheme(const Case& input) {
                 .damping = std::nullopt,
                 .artificial_stress = make_artificial_stress(input),
                 .xsph = std::nullopt,
-                .viscosity = std::nullopt};
+                .viscosity = std::nullopt,
+                .density_rate = enumerator<DensityRate>(input, "density_rate")};
   refuse_keys_of_other_schemes(input, scheme.formulation);
   if (const double rate = input.required_number("damping_rate"); rate > 0.0) scheme.damping = Damping{rate};
   if (const double epsilon = input.required_number("xsph"); epsilon != 0.0) scheme.xsph = Xsph{epsilon};
   if (const double alpha = input.required_number("viscosity_alpha"); alpha > 0.0)
-    scheme.viscosity = Viscosity{alpha, input.required_number("viscosity_eta")};
+    scheme.viscosity =
+        Viscosity{alpha, input.required_number("viscosity_eta"), enumerator<ViscousPairs>(input, "viscosity_pairs")};
   return scheme;
 }
 

@@ -24,6 +24,7 @@ enum class KeyGroup {
   time,
   growth,
   body,
+  patch,
   search,
   spectrum,
   run,

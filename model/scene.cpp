@@ -28,6 +28,14 @@ double unit_ball(int dimension) {
   return dimension == 1 ? 2.0 : dimension == 2 ? pi : 4.0 / 3.0 * pi;
 }
 
+/// Y(x) of a cantilever's first mode, x from its root in lengths: Eq. 7.3 of Gray et al. over its value at the tip.
+double cantilever_deflection(double x) {
+  constexpr double kL = 1.8751040687119611;  // cos kL cosh kL = −1, the first root
+  const double M = std::sin(kL) + std::sinh(kL), N = std::cos(kL) + std::cosh(kL);
+  const double Q = 2.0 * (std::cos(kL) * std::sinh(kL) - std::sin(kL) * std::cosh(kL));
+  return (M * (std::cos(kL * x) - std::cosh(kL * x)) - N * (std::sin(kL * x) - std::sinh(kL * x))) / Q;
+}
+
 /// Assembles the scene of a description.
 template <int Dim>
 class Builder {
@@ -43,13 +51,14 @@ class Builder {
     for_each_of("clamp", description_.clamps, [&](const auto& clamp, int) { hold(clamp); });
     if (!description_.gravity.isZero(0.0)) body_.load.assign(body_.size(), description_.gravity);
     for_each_of("traction", description_.tractions, [&](const auto& traction, int) { load(traction); });
+    for_each_of("velocity", description_.velocities, [&](const auto& start, int) { move(start); });
     std::vector<Probe> probes;
     for_each_of("probe", description_.probes, [&](const auto& site, int) {
       for (const auto& other : probes)
         if (other.name == site.name) throw InvalidInput(fmt::format("name: '{}' is given twice", site.name));
       probes.push_back({site.name, nearest_particle(site.position)});
     });
-    return {description_.name, description_.problem, std::move(body_), std::move(probes)};
+    return {description_.name, description_.problem, std::move(body_), std::move(probes), std::move(velocity_)};
   }
 
  private:
@@ -153,9 +162,11 @@ class Builder {
     }
   }
 
-  Vector<Dim> stress_at(const AffineTraction<Dim>& traction, int a) const {
-    return traction.value + traction.gradient * (body_.position[a] - traction.origin);
+  Vector<Dim> value_at(const AffineField<Dim>& field, int a) const {
+    return field.value + field.gradient * (body_.position[a] - field.origin);
   }
+
+  Vector<Dim> stress_at(const AffineField<Dim>& traction, int a) const { return value_at(traction, a); }
 
   Vector<Dim> stress_at(const CentredTraction<Dim>& traction, int a) const {
     if (traction.at_radius) require_positive("at_radius", *traction.at_radius);
@@ -171,6 +182,23 @@ class Builder {
     return stress;
   }
 
+  void move(const InitialVelocity<Dim>& start) {
+    velocity_.resize(body_.size(), Vector<Dim>::Zero());
+    for (const int a : particles_in(start.region))
+      velocity_[a] += std::visit([&](const auto& kind) { return velocity_at(kind, a); }, start.velocity);
+    for (std::size_t a = 0; a < body_.clamped.size(); ++a)
+      velocity_[a] = body_.clamped[a].select(Vector<Dim>::Zero().array(), velocity_[a].array());
+  }
+
+  Vector<Dim> velocity_at(const AffineField<Dim>& field, int a) const { return value_at(field, a); }
+
+  Vector<Dim> velocity_at(const CantileverMode& mode, int a) const {
+    if constexpr (Dim != 2) throw InvalidInput(fmt::format("cantilever: is for 2 dimensions, not {}", Dim));
+    require_positive("length", mode.length);
+    return mode.tip * cantilever_deflection((body_.position[a][0] - mode.root) / mode.length) *
+           Vector<Dim>::Unit(Dim - 1);
+  }
+
   int nearest_particle(const Vector<Dim>& position) const {
     const auto distance = [&](int a) { return (body_.position[a] - position).norm(); };
     int nearest = 0;
@@ -182,6 +210,7 @@ class Builder {
   const SceneDescription<Dim>& description_;
   const Lattice<Dim>& lattice_;
   Body<Dim> body_;
+  std::vector<Vector<Dim>> velocity_;
   std::vector<int> materials_;  ///< of the description, those of the body
   std::vector<int> part_;       ///< of each particle
   std::vector<double> layer_;   ///< of each part

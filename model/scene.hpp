@@ -26,6 +26,9 @@ struct Scene {
   Problem<Dim> problem;
   Body<Dim> body;
   std::vector<Probe> probes;
+  std::vector<Vector<Dim>> velocity = {};  ///< of each particle at the start; empty: at rest
+  /// The body is a periodic patch of so many cells of the lattice (periodic_patch); none: it has free surfaces.
+  std::optional<LatticeIndex<Dim>> periodic_cells = {};
 };
 
 /// A body of a scene: where its particles are and which of the scene's materials they are made of.
@@ -43,9 +46,9 @@ struct Clamp {
   Directions<Dim> directions;
 };
 
-/// t(x) = value + gradient · (x − origin), a force per area.
+/// y(x) = value + gradient · (x − origin): a force per area, or a velocity.
 template <int Dim>
-struct AffineTraction {
+struct AffineField {
   Vector<Dim> value;
   Tensor<Dim> gradient = Tensor<Dim>::Zero();
   Vector<Dim> origin = Vector<Dim>::Zero();
@@ -68,8 +71,24 @@ struct CentredTraction {
 template <int Dim>
 struct Traction {
   Shape<Dim> region;
-  std::variant<AffineTraction<Dim>, CentredTraction<Dim>> stress;
+  std::variant<AffineField<Dim>, CentredTraction<Dim>> stress;
   std::optional<double> layer = {};  ///< D; none: the spacing, or the thickness of a ring of a polar arrangement
+};
+
+/// The first mode of a cantilever that is clamped at x = root and reaches to root + length, as velocities across (2-D):
+/// v_y = tip Y((x − root)/length), v_x = 0, with Y(0) = Y'(0) = 0, Y(1) = 1 (Gray et al., Eqs. 7.3 and 7.4).
+struct CantileverMode {
+  double root;
+  double length;
+  double tip;  ///< velocity at the free end
+};
+
+/// How the particles of a region move at the start. Velocities of several regions add up; where a particle is held it
+/// rests.
+template <int Dim>
+struct InitialVelocity {
+  Shape<Dim> region;
+  std::variant<AffineField<Dim>, CantileverMode> velocity;
 };
 
 /// The particle nearest to the position; of several at one distance that with the lowest index.
@@ -88,6 +107,7 @@ struct SceneDescription {
   std::vector<ScenePart<Dim>> parts;
   std::vector<Clamp<Dim>> clamps = {};
   std::vector<Traction<Dim>> tractions = {};
+  std::vector<InitialVelocity<Dim>> velocities = {};
   Vector<Dim> gravity = Vector<Dim>::Zero();
   std::vector<ProbeSite<Dim>> probes = {};
 };
@@ -96,9 +116,10 @@ struct SceneDescription {
 inline constexpr double most_pairs = 5e8;
 
 /// Places, holds and loads the particles and finds their neighbours. Throws InvalidInput beginning with the number of
-/// the part ("body 2: …"), clamp, traction or probe where it cannot: see place_particles; where a region holds no
-/// particle; where two particles are in one place or one has no neighbour; where there would be more than `most_pairs`;
-/// and for the neighbours `nearest` where particles are not on one lattice. Tested in tests/model/test_scene.cpp.
+/// the part ("body 2: …"), clamp, traction, velocity or probe where it cannot: see place_particles; where a region
+/// holds no particle; where two particles are in one place or one has no neighbour; where there would be more than
+/// `most_pairs`; and for the neighbours `nearest` where particles are not on one lattice. Tested in
+/// tests/model/test_scene.cpp.
 template <int Dim>
 Scene<Dim> make_scene(const SceneDescription<Dim>& description);
 

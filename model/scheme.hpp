@@ -99,10 +99,35 @@ struct Xsph {
   double epsilon;  ///< ε̃ ≠ 0
 };
 
-/// Π_ab = α h c0 (v_ab·r_ab) / (ρ̄_ab (r_ab² + (ηh)²)) beside the stresses of a pair, on approach and separation alike.
+/// Which pairs the viscosity acts on.
+enum class ViscousPairs {
+  all,         ///< on approach and separation alike: linear
+  approaching  ///< v_ab · r_ab < 0 alone: no derivative at rest
+};
+
+template <>
+struct Names<ViscousPairs> {
+  static constexpr std::array<Named<ViscousPairs>, 2> table{
+      {{ViscousPairs::all, "all"}, {ViscousPairs::approaching, "approaching"}}};
+};
+
+/// Π_ab = α h c0 (v_ab·r_ab) / (ρ̄_ab (r_ab² + (ηh)²)) beside the stresses of a pair.
 struct Viscosity {
   double alpha;  ///< > 0
   double eta;    ///< ≥ 0
+  ViscousPairs pairs = ViscousPairs::all;
+};
+
+/// Which sum is dρ/dt of `ul`; about a uniform base state of one material both have the same derivative.
+enum class DensityRate {
+  masses,  ///< Σ_b m_b v̂_ab · ∇_a W_ab, Gray et al. Eq. 3.8
+  volumes  ///< ρ_a Σ_b (m_b/ρ_b) v̂_ab · ∇_a W_ab, Eq. 3.9
+};
+
+template <>
+struct Names<DensityRate> {
+  static constexpr std::array<Named<DensityRate>, 2> table{
+      {{DensityRate::masses, "masses"}, {DensityRate::volumes, "volumes"}}};
 };
 
 /// A scheme: its formulation and the terms that are switched on. An absent optional is a term that costs nothing.
@@ -114,6 +139,7 @@ struct Scheme {
   std::optional<ArtificialStress> artificial_stress = {};
   std::optional<Xsph> xsph = {};
   std::optional<Viscosity> viscosity = {};
+  DensityRate density_rate = DensityRate::masses;
 };
 
 /// Throws InvalidInput naming `what` there is for total-Lagrangian schemes alone, unless this is one.

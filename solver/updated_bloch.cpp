@@ -51,8 +51,8 @@ Eigen::VectorXd step_derivative(UpdatedSimulation<Dim, Dual>& simulation, const 
 
 template <int Dim>
 Eigen::MatrixXcd bloch_step_matrix(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
-                                   const Vector<Dim>& wave_vector, double time_step, const UpdatedVariant& variant) {
-  UpdatedSimulation<Dim, Dual> simulation(problem, cells, variant);
+                                   const Vector<Dim>& wave_vector, double time_step) {
+  UpdatedSimulation<Dim, Dual> simulation(problem, cells);
   UpdatedState<Dim, Dual> base = simulation.base_state();
   if (problem.integrator == Integrator::predictor_corrector_pec)
     base.stored = UpdatedRates<Dim, Dual>(base.particles());
@@ -63,8 +63,8 @@ Eigen::MatrixXcd bloch_step_matrix(const Problem<Dim>& problem, const LatticeInd
 
 template <int Dim>
 Eigen::MatrixXcd bloch_rate_matrix(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
-                                   const Vector<Dim>& wave_vector, const UpdatedVariant& variant) {
-  UpdatedSimulation<Dim, Dual> simulation(problem, cells, variant);
+                                   const Vector<Dim>& wave_vector) {
+  UpdatedSimulation<Dim, Dual> simulation(problem, cells);
   const UpdatedState<Dim, Dual>& base = simulation.base_state();
   return bloch_matrix<Dim>(
       periodic_patch(problem, cells), wave_vector, numbers_per_particle(base), [&](const Eigen::VectorXd& direction) {
@@ -81,21 +81,15 @@ Eigen::MatrixXcd bloch_rate_matrix(const Problem<Dim>& problem, const LatticeInd
 
 template Eigen::VectorXd step_derivative(UpdatedSimulation<1, Dual>&, const UpdatedState<1, Dual>&,
                                          const Eigen::VectorXd&, double);
-template Eigen::MatrixXcd bloch_step_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&, double,
-                                            const UpdatedVariant&);
-template Eigen::MatrixXcd bloch_rate_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&,
-                                            const UpdatedVariant&);
+template Eigen::MatrixXcd bloch_step_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&, double);
+template Eigen::MatrixXcd bloch_rate_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&);
 template Eigen::VectorXd step_derivative(UpdatedSimulation<2, Dual>&, const UpdatedState<2, Dual>&,
                                          const Eigen::VectorXd&, double);
-template Eigen::MatrixXcd bloch_step_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&, double,
-                                            const UpdatedVariant&);
-template Eigen::MatrixXcd bloch_rate_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&,
-                                            const UpdatedVariant&);
+template Eigen::MatrixXcd bloch_step_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&, double);
+template Eigen::MatrixXcd bloch_rate_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&);
 template Eigen::VectorXd step_derivative(UpdatedSimulation<3, Dual>&, const UpdatedState<3, Dual>&,
                                          const Eigen::VectorXd&, double);
-template Eigen::MatrixXcd bloch_step_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&, double,
-                                            const UpdatedVariant&);
-template Eigen::MatrixXcd bloch_rate_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&,
-                                            const UpdatedVariant&);
+template Eigen::MatrixXcd bloch_step_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&, double);
+template Eigen::MatrixXcd bloch_rate_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&);
 
 }  // namespace sphstab::solver

@@ -20,31 +20,24 @@ Eigen::VectorXd step_derivative(UpdatedSimulation<Dim, Dual>& simulation, const 
 /// Fy, dρ, dSxx, dSyy, dSxy] after them. Throws InvalidInput (`wave_vector`) unless the box admits k.
 template <int Dim>
 Eigen::MatrixXcd bloch_step_matrix(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
-                                   const Vector<Dim>& wave_vector, double time_step,
-                                   const UpdatedVariant& variant = {});
+                                   const Vector<Dim>& wave_vector, double time_step);
 
 /// L(k): the rates [v̂, F, dρ, dS] that the amplitudes [r, v, ρ, S] of such a wave bring about.
 template <int Dim>
 Eigen::MatrixXcd bloch_rate_matrix(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
-                                   const Vector<Dim>& wave_vector, const UpdatedVariant& variant = {});
+                                   const Vector<Dim>& wave_vector);
 
 extern template Eigen::VectorXd step_derivative(UpdatedSimulation<1, Dual>&, const UpdatedState<1, Dual>&,
                                                 const Eigen::VectorXd&, double);
-extern template Eigen::MatrixXcd bloch_step_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&, double,
-                                                   const UpdatedVariant&);
-extern template Eigen::MatrixXcd bloch_rate_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&,
-                                                   const UpdatedVariant&);
+extern template Eigen::MatrixXcd bloch_step_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&, double);
+extern template Eigen::MatrixXcd bloch_rate_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&);
 extern template Eigen::VectorXd step_derivative(UpdatedSimulation<2, Dual>&, const UpdatedState<2, Dual>&,
                                                 const Eigen::VectorXd&, double);
-extern template Eigen::MatrixXcd bloch_step_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&, double,
-                                                   const UpdatedVariant&);
-extern template Eigen::MatrixXcd bloch_rate_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&,
-                                                   const UpdatedVariant&);
+extern template Eigen::MatrixXcd bloch_step_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&, double);
+extern template Eigen::MatrixXcd bloch_rate_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&);
 extern template Eigen::VectorXd step_derivative(UpdatedSimulation<3, Dual>&, const UpdatedState<3, Dual>&,
                                                 const Eigen::VectorXd&, double);
-extern template Eigen::MatrixXcd bloch_step_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&, double,
-                                                   const UpdatedVariant&);
-extern template Eigen::MatrixXcd bloch_rate_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&,
-                                                   const UpdatedVariant&);
+extern template Eigen::MatrixXcd bloch_step_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&, double);
+extern template Eigen::MatrixXcd bloch_rate_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&);
 
 }  // namespace sphstab::solver

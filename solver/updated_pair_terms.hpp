@@ -8,18 +8,6 @@
 /// tests/solver/test_updated_pair_terms.cpp.
 namespace sphstab::solver {
 
-/// Which pairs the viscosity acts on.
-enum class ViscousPairs {
-  all,         ///< on approach and separation alike: linear
-  approaching  ///< v_ab · r_ab < 0 alone: no derivative at rest
-};
-
-/// Which sum is dρ/dt.
-enum class DensityRate {
-  masses,  ///< Σ_b m_b v̂_ab · g_ab (3.8)
-  volumes  ///< ρ_a Σ_b (m_b/ρ_b) v̂_ab · g_ab (3.9)
-};
-
 /// Π_ab = α h c0 v_ab · r_ab / (ρ̄_ab (r² + (ηh)²)) with ρ̄_ab = (ρ_a + ρ_b)/2. It stands beside σ/ρ², which is positive
 /// in tension, and so is negative on approach (errata.md G13).
 template <class Scalar, int Dim>

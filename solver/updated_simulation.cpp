@@ -57,20 +57,17 @@ std::optional<NotFinite> not_finite(const UpdatedState<Dim, Scalar>& state, long
 }  // namespace
 
 template <int Dim, class Scalar>
-UpdatedSimulation<Dim, Scalar>::UpdatedSimulation(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
-                                                  const UpdatedVariant& variant)
-    : UpdatedSimulation(problem, periodic_patch(problem, cells), periods(problem, cells), variant) {}
+UpdatedSimulation<Dim, Scalar>::UpdatedSimulation(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells)
+    : UpdatedSimulation(problem, periodic_patch(problem, cells), periods(problem, cells)) {}
+
+template <int Dim, class Scalar>
+UpdatedSimulation<Dim, Scalar>::UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body)
+    : UpdatedSimulation(problem, body, std::nullopt) {}
 
 template <int Dim, class Scalar>
 UpdatedSimulation<Dim, Scalar>::UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body,
-                                                  const UpdatedVariant& variant)
-    : UpdatedSimulation(problem, body, std::nullopt, variant) {}
-
-template <int Dim, class Scalar>
-UpdatedSimulation<Dim, Scalar>::UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body,
-                                                  const std::optional<Tensor<Dim>>& box, const UpdatedVariant& variant)
+                                                  const std::optional<Tensor<Dim>>& box)
     : scheme_(problem.scheme),
-      variant_(variant),
       integrator_(problem.integrator),
       kernel_(problem.kernel),
       spacing_(problem.lattice.spacing()),
@@ -188,9 +185,9 @@ void UpdatedSimulation<Dim, Scalar>::forces(const UpdatedState<Dim, Scalar>& sta
   ++work_.forces;
   store_stresses(state);
   const bool artificial = scheme_.artificial_stress.has_value();
-  const Viscous viscous = !scheme_.viscosity                            ? Viscous::none
-                          : variant_.viscous_pairs == ViscousPairs::all ? Viscous::all
-                                                                        : Viscous::approaching;
+  const Viscous viscous = !scheme_.viscosity                              ? Viscous::none
+                          : scheme_.viscosity->pairs == ViscousPairs::all ? Viscous::all
+                                                                          : Viscous::approaching;
   switch (viscous) {
     case Viscous::none:
       artificial ? sum_forces<true, Viscous::none>(state, acceleration)
@@ -265,7 +262,7 @@ template <int Dim, class Scalar>
 void UpdatedSimulation<Dim, Scalar>::rates(const UpdatedState<Dim, Scalar>& state, const Field<Dim, Scalar>& smoothed,
                                            UpdatedRates<Dim, Scalar>& rates) {
   ++work_.rates;
-  switch (variant_.density_rate) {
+  switch (scheme_.density_rate) {
     case DensityRate::masses:
       sum_gradients<DensityRate::masses>(state, smoothed, rates.density);
       break;

@@ -13,12 +13,6 @@
 
 namespace sphstab::solver {
 
-/// Choices of a run that the linear theory of a scheme does not know or need not know.
-struct UpdatedVariant {
-  ViscousPairs viscous_pairs = ViscousPairs::all;
-  DensityRate density_rate = DensityRate::masses;
-};
-
 /// The quantities of a state.
 enum class UpdatedQuantity { position, velocity, density, deviatoric_stress };
 
@@ -72,11 +66,11 @@ template <int Dim, class Scalar = double>
 class UpdatedSimulation {
  public:
   /// A periodic box of n_1 × … × n_Dim cells of the lattice (periodic_patch).
-  UpdatedSimulation(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, const UpdatedVariant& variant = {});
+  UpdatedSimulation(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
   /// Free particles of a body, some perhaps held or loaded. Of its neighbours nothing is used.
   /// Both throw InvalidInput for another scheme, another rule of neighbours than `support`, plane stress and materials
   /// of Poisson's ratio 0.5 other than fluids.
-  UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body, const UpdatedVariant& variant = {});
+  UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body);
 
   int particles() const { return static_cast<int>(mass_.size()); }
 
@@ -127,8 +121,7 @@ class UpdatedSimulation {
   };
   enum class Viscous { none, all, approaching };
 
-  UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body, const std::optional<Tensor<Dim>>& box,
-                    const UpdatedVariant& variant);
+  UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body, const std::optional<Tensor<Dim>>& box);
 
   void hold(Field<Dim, Scalar>& field) const;
 
@@ -141,7 +134,6 @@ class UpdatedSimulation {
                      std::vector<Scalar>& density_rates);
 
   Scheme scheme_;
-  UpdatedVariant variant_;
   Integrator integrator_;
   Kernel<Dim> kernel_;
   double spacing_;

@@ -31,8 +31,8 @@ SceneDescription<2> stretched_plate(const Problem<2>& problem, double load) {
   const double column = problem.lattice.spacing();
   const Vector<2> top_left(0.0, side);
   scene.tractions = {
-      {Box<2>{{0.0, 0.0}, {column, side}}, AffineTraction<2>{Vector<2>::Zero(), gradient, top_left}},
-      {Box<2>{{side - column, 0.0}, {side, side}}, AffineTraction<2>{Vector<2>::Zero(), -gradient, top_left}}};
+      {Box<2>{{0.0, 0.0}, {column, side}}, AffineField<2>{Vector<2>::Zero(), gradient, top_left}},
+      {Box<2>{{side - column, 0.0}, {side, side}}, AffineField<2>{Vector<2>::Zero(), -gradient, top_left}}};
   return scene;
 }
 

@@ -116,7 +116,7 @@ TEST_CASE("a traction adds up to its integral over the surface, gravity to the w
   // t = (3 + (y − 1), −1) on the right edge, x = 4, 0 < y < 2: force (6, −2), moment about (0, 1) −8 − 2/3; a layer of
   // cells takes the mean of y t at their centres: 2/3 (1 − 1/4²).
   description.tractions.push_back(
-      {Box<2>{{3.5, 0.0}, {4.0, 2.0}}, AffineTraction<2>{{3.0, -1.0}, Tensor<2>{{0.0, 1.0}, {0.0, 0.0}}, {0.0, 1.0}}});
+      {Box<2>{{3.5, 0.0}, {4.0, 2.0}}, AffineField<2>{{3.0, -1.0}, Tensor<2>{{0.0, 1.0}, {0.0, 0.0}}, {0.0, 1.0}}});
   description.gravity.setZero();
   const auto body = make_scene(description).body;
   CHECK((total_force(body) - Vector<2>(6.0, -2.0)).norm() < 6 * rounding);
@@ -197,7 +197,7 @@ TEST_CASE("scenes that cannot be are refused with the number of the table", "[fa
   clamp.clamps = {{plate, {true, true}}, {outside, {true, true}}};
   CHECK_THROWS_WITH(make_scene(clamp), "clamp 2: region: holds no particle");
   auto traction = scene_of(plate);
-  traction.tractions = {{outside, AffineTraction<2>{{1.0, 0.0}}}};
+  traction.tractions = {{outside, AffineField<2>{{1.0, 0.0}}}};
   CHECK_THROWS_WITH(make_scene(traction), "traction 1: region: holds no particle");
   traction.tractions = {{plate, CentredTraction<2>{.centre = {0.25, 0.25}, .shear = 1.0}}};
   CHECK_THROWS_WITH(make_scene(traction),

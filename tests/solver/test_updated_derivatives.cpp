@@ -18,9 +18,9 @@ constexpr double rounding = 1e-14;
 
 /// The derivative of three steps of a disturbed box along a random direction, by duals and by differences.
 template <int Dim>
-void check_steps(const Problem<Dim>& problem, const UpdatedVariant& variant, const LatticeIndex<Dim>& cells) {
-  UpdatedSimulation<Dim> simulation(problem, cells, variant);
-  UpdatedSimulation<Dim, Dual> dual_simulation(problem, cells, variant);
+void check_steps(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
+  UpdatedSimulation<Dim> simulation(problem, cells);
+  UpdatedSimulation<Dim, Dual> dual_simulation(problem, cells);
   auto state = disturbed(simulation.base_state(), 0.05, 1);
   if (problem.integrator == Integrator::predictor_corrector_pec) simulation.advance(state, 0.02);
   const Eigen::VectorXd from = flat_state(state);
@@ -76,18 +76,19 @@ TEST_CASE("ul: derivatives of steps by dual numbers are those by differences, fo
     Problem<2> problem = updated_problem<2>(1.37);  // no neighbours at the knots of the spline, nor near the support
     problem.integrator = integrator;
     problem.deviatoric_stress << 0.4, 0.1, 0.1, -0.5;  // no principal stress near the switch at zero
-    for_each_choice_of_terms(problem, [](const Problem<2>& choice, const UpdatedVariant& variant) {
+    for_each_choice_of_terms(problem, [](const Problem<2>& choice) {
       // A pair whose approach changes sign within the step of a difference has no derivative.
-      if (variant.viscous_pairs == ViscousPairs::all) check_steps<2>(choice, variant, {3, 3});
+      if (!choice.scheme.viscosity || choice.scheme.viscosity->pairs == ViscousPairs::all)
+        check_steps<2>(choice, {3, 3});
     });
     Problem<1> line = with_all_terms(updated_problem<1>(1.37));
     line.integrator = integrator;
     line.pressure = -0.4;
-    check_steps<1>(line, {}, LatticeIndex<1>(7));
+    check_steps<1>(line, LatticeIndex<1>(7));
     Problem<3> space = with_all_terms(updated_problem<3>(1.2));
     space.integrator = integrator;
     space.deviatoric_stress.diagonal() << 0.4, 0.3, -0.7;
-    check_steps<3>(space, {}, {3, 2, 2});
+    check_steps<3>(space, {3, 2, 2});
   }
 }
 
@@ -97,7 +98,7 @@ TEST_CASE("ul: every kernel runs in double precision, single precision and with 
     Problem<2> problem = with_all_terms(updated_problem<2>());
     problem.kernel = Kernel<2>(family, 1.13 * dp);
     problem.deviatoric_stress << 0.4, 0.1, 0.1, -0.5;
-    check_steps<2>(problem, {}, {3, 3});
+    check_steps<2>(problem, {3, 3});
     UpdatedSimulation<2> simulation(problem, LatticeIndex<2>(3, 3));
     UpdatedSimulation<2, float> single(problem, LatticeIndex<2>(3, 3));
     const auto state = disturbed(simulation.base_state(), 0.05, 1);

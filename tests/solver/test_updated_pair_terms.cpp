@@ -43,8 +43,8 @@ struct FewParticles {
     state.density.assign(density.begin(), density.begin() + count);
     state.deviatoric_stress.assign(count, Tensor<2>::Zero());
   }
-  UpdatedRates<2> rates(const UpdatedVariant& variant = {}) {
-    UpdatedSimulation<2> simulation(problem, body, variant);
+  UpdatedRates<2> rates() {
+    UpdatedSimulation<2> simulation(problem, body);
     return rates_of(simulation, state);
   }
   Problem<2> problem = unit_problem();
@@ -94,7 +94,8 @@ TEST_CASE("ul: viscosity slows two particles that approach, and holds back two t
     CHECK(force[0] * approach < 0.0);        // resists
     check(two.rates().acceleration[0], 3.0 * force);
     check(two.rates().acceleration[1], -2.0 * force);
-    const auto one_sided = two.rates({.viscous_pairs = ViscousPairs::approaching, .density_rate = DensityRate::masses});
+    two.problem.scheme.viscosity->pairs = ViscousPairs::approaching;
+    const auto one_sided = two.rates();
     check(one_sided.acceleration[0], approach > 0.0 ? Vector<2>(3.0 * force) : Vector<2>::Zero());
   }
   FewParticles uneven(2);
@@ -132,7 +133,8 @@ TEST_CASE("ul: two particles change density and stress by their relative velocit
   const auto masses = two.rates();
   CHECK(masses.density[0] == Approx(3.0 * 0.5 * -dW_1).epsilon(rounding));
   CHECK(masses.density[1] == Approx(2.0 * 0.5 * -dW_1).epsilon(rounding));
-  const auto volumes = two.rates({.viscous_pairs = ViscousPairs::all, .density_rate = DensityRate::volumes});
+  two.problem.scheme.density_rate = DensityRate::volumes;
+  const auto volumes = two.rates();
   CHECK(volumes.density[0] == Approx(2.0 * 6.0 * 0.5 * -dW_1).epsilon(rounding));
   CHECK(volumes.density[1] == Approx(0.5 * 1.0 * 0.5 * -dW_1).epsilon(rounding));
   // ∂v_x/∂x = 6 · −0.5 · −W' and ∂v_y/∂x = 6 · −0.25 · −W' at 0; a sixth at 1.

@@ -31,9 +31,9 @@ void check_against_paper(UpdatedSimulation<Dim>& simulation, const PaperEquation
 
 template <int Dim>
 void check_box(const Problem<Dim>& plain, const LatticeIndex<Dim>& cells) {
-  for_each_choice_of_terms(plain, [&](const Problem<Dim>& problem, const UpdatedVariant& variant) {
-    UpdatedSimulation<Dim> simulation(problem, cells, variant);
-    const PaperEquations<Dim> paper(problem, variant, masses(simulation), box_translations(problem, cells));
+  for_each_choice_of_terms(plain, [&](const Problem<Dim>& problem) {
+    UpdatedSimulation<Dim> simulation(problem, cells);
+    const PaperEquations<Dim> paper(problem, masses(simulation), box_translations(problem, cells));
     check_against_paper(simulation, paper, disturbed(simulation.base_state(), disturbance, 3));
   });
 }
@@ -48,9 +48,9 @@ Body<Dim> uneven_block(const Problem<Dim>& problem, int side) {
 
 template <int Dim>
 void check_free_body(int side) {
-  for_each_choice_of_terms(updated_problem<Dim>(), [&](const Problem<Dim>& problem, const UpdatedVariant& variant) {
-    UpdatedSimulation<Dim> simulation(problem, uneven_block(problem, side), variant);
-    check_against_paper(simulation, PaperEquations<Dim>(problem, variant, masses(simulation)),
+  for_each_choice_of_terms(updated_problem<Dim>(), [&](const Problem<Dim>& problem) {
+    UpdatedSimulation<Dim> simulation(problem, uneven_block(problem, side));
+    check_against_paper(simulation, PaperEquations<Dim>(problem, masses(simulation)),
                         disturbed(simulation.base_state(), disturbance, 4));
   });
 }
@@ -201,7 +201,8 @@ TEST_CASE("ul: inside a lattice a uniform velocity gradient gives its density an
   const double c = gradient_factor(problem);
   CHECK(c == Approx(1.0).margin(0.05));  // a quadrature of 1
   for (const auto rate : {DensityRate::masses, DensityRate::volumes}) {
-    UpdatedSimulation<2> simulation(problem, free_plate(problem, LatticeIndex<2>(13, 13)), {ViscousPairs::all, rate});
+    problem.scheme.density_rate = rate;
+    UpdatedSimulation<2> simulation(problem, free_plate(problem, LatticeIndex<2>(13, 13)));
     auto state = simulation.base_state();
     for (int a = 0; a < state.particles(); ++a) state.velocity[a] = L * state.position[a];
     const auto rates = rates_of(simulation, state);

@@ -168,7 +168,7 @@ TEST_CASE("ul: a step is what the interface says, term by term", "[fast]") {
     Problem<2> problem = with_all_terms(updated_problem<2>());
     problem.integrator = integrator;
     UpdatedSimulation<2> simulation(problem, free_plate(problem, LatticeIndex<2>(5, 5)));
-    const PaperEquations<2> paper(problem, {}, masses(simulation));
+    const PaperEquations<2> paper(problem, masses(simulation));
     auto state = disturbed(simulation.base_state(), 0.05, 9);
     auto first = paper.rates(state);
     for (int step = 0; step < 3; ++step) {

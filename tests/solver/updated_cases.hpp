@@ -38,7 +38,7 @@ Problem<Dim> with_all_terms(Problem<Dim> problem) {
   return problem;
 }
 
-/// Every choice of terms and of variants of a run.
+/// Every choice of terms and of their variants.
 template <int Dim, class Visit>
 void for_each_choice_of_terms(const Problem<Dim>& plain, const Visit& visit) {
   for (int terms = 0; terms < 8; ++terms)
@@ -49,8 +49,10 @@ void for_each_choice_of_terms(const Problem<Dim>& plain, const Visit& visit) {
           problem.scheme.artificial_stress->weight = weight;
           if (!(terms & 1)) problem.scheme.artificial_stress.reset();
           if (!(terms & 2)) problem.scheme.xsph.reset();
+          problem.scheme.viscosity->pairs = pairs;
+          problem.scheme.density_rate = rate;
           if (!(terms & 4)) problem.scheme.viscosity.reset();
-          visit(problem, UpdatedVariant{pairs, rate});
+          visit(problem);
         }
 }
 
@@ -94,9 +96,9 @@ UpdatedState<Dim> disturbed(UpdatedState<Dim> state, double amplitude, unsigned 
 template <int Dim>
 class PaperEquations {
  public:
-  PaperEquations(const Problem<Dim>& problem, const UpdatedVariant& variant, std::vector<double> mass,
+  PaperEquations(const Problem<Dim>& problem, std::vector<double> mass,
                  std::vector<Vector<Dim>> shifts = {Vector<Dim>::Zero()})
-      : problem_(problem), variant_(variant), mass_(std::move(mass)), shifts_(std::move(shifts)) {}
+      : problem_(problem), mass_(std::move(mass)), shifts_(std::move(shifts)) {}
 
   /// (3.1), (3.12).
   Field<Dim> accelerations(const UpdatedState<Dim>& state) const {
@@ -125,7 +127,7 @@ class PaperEquations {
         const double vr = (state.velocity[a] - state.velocity[b]).dot(r_ab);
         const double mean = 0.5 * (state.density[a] + state.density[b]);
         Pi = viscosity->alpha * h * c0 * vr / (mean * (r * r + std::pow(viscosity->eta * h, 2)));
-        if (variant_.viscous_pairs == ViscousPairs::approaching && vr > 0.0) Pi = 0.0;
+        if (viscosity->pairs == ViscousPairs::approaching && vr > 0.0) Pi = 0.0;
       }
       double phi = 0.0;
       if (const auto& artificial = problem_.scheme.artificial_stress)
@@ -163,7 +165,8 @@ class PaperEquations {
     std::vector<Tensor<Dim>> gradient(state.particles(), Tensor<Dim>::Zero());  // (i, j): ∂v_j/∂x_i as printed
     for_each_pair(state, [&](int a, int b, const Vector<Dim>& r_ab) {
       const Vector<Dim> grad_W = problem_.kernel.slope(r_ab.norm()) / r_ab.norm() * r_ab;
-      const double by_mass = variant_.density_rate == DensityRate::masses ? 1.0 : state.density[a] / state.density[b];
+      const double by_mass =
+          problem_.scheme.density_rate == DensityRate::masses ? 1.0 : state.density[a] / state.density[b];
       rates.density[a] += by_mass * mass_[b] * (v[a] - v[b]).dot(grad_W);
       for (int i = 0; i < Dim; ++i)
         for (int j = 0; j < Dim; ++j)
@@ -196,7 +199,6 @@ class PaperEquations {
   }
 
   Problem<Dim> problem_;
-  UpdatedVariant variant_;
   std::vector<double> mass_;
   std::vector<Vector<Dim>> shifts_;
 };
