@@ -8,18 +8,20 @@
 #include <vector>
 
 #include "model/scene.hpp"
-#include "solver/state.hpp"
 
 namespace sphstab::study {
 
-/// All particles at one time. Velocities of `leapfrog` belong to half a step before.
+/// All particles at one time, of either formulation. Velocities of `leapfrog` belong to half a step before.
 template <int Dim>
 struct Snapshot {
   long step;
   double time;
-  const solver::State<Dim>& state;
+  /// From the positions of the body, never folded back into a periodic box.
+  std::vector<Vector<Dim>> displacement;
+  std::vector<Vector<Dim>> velocity;     ///< not smoothed
   std::vector<Tensor<Dim>> stress;       ///< σ, positive in tension
   std::vector<double> von_mises_stress;  ///< out-of-plane stress counted (solver/stress.hpp)
+  std::vector<double> density;           ///< of `ul`; empty otherwise
 };
 
 template <int Dim>
@@ -44,42 +46,50 @@ struct ProbeHistory {
   std::vector<Tensor<Dim>> stress;
 };
 
-/// The first number of a run that is none, or is beyond 1e100.
+/// The first number of a run that is none, or is beyond 1e100; of `ul` also a density that is not positive.
 struct NonFiniteValue {
   long step;
   double time;
   int particle;
-  std::string_view field;  ///< velocity or displacement
+  std::string_view field;                     ///< velocity or displacement; of `ul` a solver::UpdatedQuantity
+  std::optional<std::string_view> term = {};  ///< of `ul`, that first made no number: a solver::UpdatedTerm
 };
 
-/// Of the largest values, those at every 50th step and at the last one. Energies and masses are those that the scheme
-/// keeps (Simulation::inertia); velocities of `leapfrog` are first brought to the time of the displacements.
+/// Of the largest values, those at every 50th step and at the last one. Velocities of `leapfrog` are first brought to
+/// the time of the displacements for the kinetic energy.
 struct SceneSummary {
   double time;
   long steps;
-  long right_hand_sides;
+  long right_hand_sides;  ///< evaluations of the forces
   double largest_displacement;
   double largest_velocity;
   double largest_von_mises_stress;
+  double initial_energy;  ///< kinetic and strain energy at the start
   double kinetic_energy;  ///< at the end
-  double strain_energy;   ///< at the end
-  double work;  ///< of loads and base state up to the end; without damping, kinetic and strain energy together
-  /// Largest departure of the momentum from that which the loads have given, over the largest Σ m |v|, in the
-  /// directions in which no particle is clamped; absent if there are none.
+  /// At the end. `tl-linear`: ½ Σ V σ(δε) : δε, which the scheme keeps. `ul`: Σ (m/ρ)(P²/(2K) + |S|²/(4μ)), what is
+  /// stored for small strains, S out of the plane counted; the scheme keeps it to the order of the strain only.
+  double strain_energy;
+  double work;  ///< of loads (and the base state of `tl-linear`) up to the end: constant force times displacement
+  /// Largest departure of the momentum from that of the start and what the loads have given, over the largest Σ m |v|,
+  /// in the directions in which no particle is clamped; absent if there are none.
   std::optional<double> momentum_drift;
+  std::optional<long> list_builds = {};  ///< of `ul`: searches for neighbours
+  /// Particles that have no neighbour within the support any more, at the end; none in `tl-linear`.
+  std::vector<int> lost_particles = {};
 };
 
 template <int Dim>
 struct SceneRunResult {
-  solver::State<Dim> state;  ///< the last; of a failed run the last finite one
+  Snapshot<Dim> last;  ///< of a failed run the last finite one
   std::vector<double> sample_times;
   std::vector<ProbeHistory<Dim>> probes;
   SceneSummary summary;
   std::optional<NonFiniteValue> failure;  ///< then the run stopped early
 };
 
-/// Runs the scene from rest. A run with non-finite values stops at the exact step of the first one, whatever the
-/// interval at which it is looked at. With `verlet` every sample, snapshot and 50th step costs a right-hand side.
+/// Runs the scene from its base state with the velocities that it starts with: those of half a step before with
+/// `leapfrog`. A run with non-finite values stops at the exact step of the first one, whatever the interval at which it
+/// is looked at. With `verlet` every sample, snapshot and 50th step costs an evaluation of the forces.
 /// Throws InvalidInput (`time_step`, `duration`) unless both are positive and the steps are at most 1e15. Tested in
 /// tests/study/test_scene_run.cpp.
 template <int Dim>
