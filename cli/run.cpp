@@ -11,25 +11,50 @@ ExitStatus status(const Json& answer) { return answer["unstable"].get<bool>() ? 
 
 std::string number(const Json& answer, const char* key, int digits = 8) { return number_or(answer[key], "-", digits); }
 
+std::string time_step_row(const Json& answer) {
+  if (answer["critical_time_step"].is_null())
+    return row("time step", number(answer, "time_step") + "; there is no critical step");
+  return row("time step", fmt::format("{}, {:.4g} of the critical step {}", number(answer, "time_step"),
+                                      answer["time_step"].get<double>() / answer["critical_time_step"].get<double>(),
+                                      number(answer, "critical_time_step")));
+}
+
+/// Whether the run went wrong, and how.
+std::string unstable_row(const Json& answer) {
+  if (answer.contains("failure")) {
+    const Json& failure = answer["failure"];
+    const std::string lost =
+        fmt::format("the {} of particle {} is no number at step {}", failure["field"].get<std::string>(),
+                    failure["particle"].get<int>(), failure["step"].get<long>());
+    return row("UNSTABLE", failure.contains("term") ? fmt::format("{}; the first term to break: {}", lost,
+                                                                  failure["term"].get<std::string>())
+                                                    : lost);
+  }
+  if (const long lost = answer["lost_particles"].get<long>(); lost > 0)
+    return row("UNSTABLE", fmt::format("{} particles have no neighbour any more", lost));
+  if (answer["unstable"].get<bool>())
+    return row("UNSTABLE", "the energy is more than a thousand times what the start and the loads gave");
+  return "";
+}
+
 std::string describe(const Json& answer) {
-  std::string text = fmt::format("Run of {}, {} particles\n", subject(answer), answer["particles"].get<int>());
-  text += row("time step", fmt::format("{}, {:.4g} of the critical step {}", number(answer, "time_step"),
-                                       answer["time_step"].get<double>() / answer["critical_time_step"].get<double>(),
-                                       number(answer, "critical_time_step")));
+  std::string text = fmt::format("Run of {}: {} particles\n", subject(answer), answer["particles"].get<int>());
+  text += time_step_row(answer);
+  text += row("which is that of the", answer["critical_time_step_of"].get<std::string>());
+  if (answer.contains("note")) text += row("note", answer["note"].get<std::string>());
+  if (answer.contains("predicted_growth_e_foldings"))
+    text += row("WARNING", fmt::format("at this step theory predicts {} e-foldings of the fastest mode",
+                                       number(answer, "predicted_growth_e_foldings", 3)));
   text += row("simulated", fmt::format("{} in {} steps", number(answer, "time"), answer["steps"].get<long>()));
-  if (answer.contains("failure"))
-    text +=
-        row("UNSTABLE",
-            fmt::format("the {} of particle {} is no number at step {}", answer["failure"]["field"].get<std::string>(),
-                        answer["failure"]["particle"].get<int>(), answer["failure"]["step"].get<long>()));
-  else if (answer["unstable"].get<bool>())
-    text += row("UNSTABLE", "the energy is more than a thousand times the work of the loads");
+  text += unstable_row(answer);
   text += row("displacement, at most", number(answer, "largest_displacement"));
   text += row("velocity, at most", number(answer, "largest_velocity"));
   text += row("von Mises, at most", number(answer, "largest_von_mises_stress"));
+  text += row("energy at the start", number(answer, "initial_energy", 6));
   text += row("energy at the end",
               fmt::format("kinetic {}, strain {}, work of the loads {}", number(answer, "kinetic_energy", 6),
                           number(answer, "strain_energy", 6), number(answer, "work", 6)));
+  if (!answer["momentum_drift"].is_null()) text += row("momentum drift", number(answer, "momentum_drift", 2));
   for (const auto& [name, probe] : answer["probes"].items())
     text += row(name, fmt::format("displacement ({}), velocity ({})", numbers(probe["displacement"], 6),
                                   numbers(probe["velocity"], 6)));

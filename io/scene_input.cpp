@@ -322,7 +322,8 @@ Scene<Dim> read_scene(const Case& input) {
   SceneDescription<Dim> description{.name = std::filesystem::path(path).stem().string(),
                                     .problem = problem,
                                     .materials = {problem.material},
-                                    .parts = {}};
+                                    .parts = {},
+                                    .periodic_cells = make_counts<Dim>(input, "patch")};
   description.gravity = make_gravity<Dim>(input);
   const Document file = read_toml(path);
   return in_context(path, [&] {

@@ -10,7 +10,8 @@ namespace sphstab::io {
 /// Throws InvalidInput where the file cannot be read, and for a key that does not exist.
 Case with_scene_keys(const Case& input);
 
-/// The scene of the file that `scene` names, with the keys of `input` (from with_scene_keys). The tables of the file
+/// The scene of the file that `scene` names, with the keys of `input` (from with_scene_keys): its bodies, or with the
+/// key `patch` a periodic patch. The tables of the file
 /// are described in docs/scenes.md. Throws InvalidInput naming file, table and key for whatever is missing, unknown or
 /// impossible.
 template <int Dim>

@@ -44,10 +44,10 @@ class Builder {
       : description_(description), lattice_(description.problem.lattice) {}
 
   Scene<Dim> scene() {
-    if (description_.parts.empty()) throw InvalidInput("body: missing");
-    for_each_of("body", description_.parts, [&](const auto& part, int i) { add(part, i); });
-    find_sites();
-    find_neighbours();
+    if (description_.periodic_cells)
+      place_patch(*description_.periodic_cells);
+    else
+      place_parts();
     for_each_of("clamp", description_.clamps, [&](const auto& clamp, int) { hold(clamp); });
     if (!description_.gravity.isZero(0.0)) body_.load.assign(body_.size(), description_.gravity);
     for_each_of("traction", description_.tractions, [&](const auto& traction, int) { load(traction); });
@@ -58,10 +58,27 @@ class Builder {
         if (other.name == site.name) throw InvalidInput(fmt::format("name: '{}' is given twice", site.name));
       probes.push_back({site.name, nearest_particle(site.position)});
     });
-    return {description_.name, description_.problem, std::move(body_), std::move(probes), std::move(velocity_)};
+    return {description_.name, description_.problem, std::move(body_),
+            std::move(probes), std::move(velocity_), description_.periodic_cells};
   }
 
  private:
+  void place_parts() {
+    if (description_.parts.empty()) throw InvalidInput("body: missing");
+    for_each_of("body", description_.parts, [&](const auto& part, int i) { add(part, i); });
+    find_sites();
+    find_neighbours();
+  }
+
+  void place_patch(const LatticeIndex<Dim>& cells) {
+    if (!description_.parts.empty()) throw InvalidInput("patch: cannot be given with bodies");
+    if (const double size = cells.template cast<double>().prod(); size > static_cast<double>(most_particles))
+      throw InvalidInput(
+          fmt::format("patch: {} particles are more than the {} that are allowed", size, most_particles));
+    if (!description_.tractions.empty()) throw InvalidInput("traction: a periodic patch has no surface");
+    body_ = periodic_patch(description_.problem, cells);
+  }
+
   void add(const ScenePart<Dim>& part, int i) {
     const auto particles = place_particles(part.placement, lattice_);
     const std::size_t size = body_.position.size() + particles.position.size();

@@ -105,6 +105,7 @@ struct SceneDescription {
   Problem<Dim> problem;
   std::vector<Material> materials;  ///< that parts choose from
   std::vector<ScenePart<Dim>> parts;
+  std::optional<LatticeIndex<Dim>> periodic_cells = {};  ///< a periodic patch of the problem's material, and no parts
   std::vector<Clamp<Dim>> clamps = {};
   std::vector<Traction<Dim>> tractions = {};
   std::vector<InitialVelocity<Dim>> velocities = {};
@@ -118,8 +119,8 @@ inline constexpr double most_pairs = 5e8;
 /// Places, holds and loads the particles and finds their neighbours. Throws InvalidInput beginning with the number of
 /// the part ("body 2: …"), clamp, traction, velocity or probe where it cannot: see place_particles; where a region
 /// holds no particle; where two particles are in one place or one has no neighbour; where there would be more than
-/// `most_pairs`; and for the neighbours `nearest` where particles are not on one lattice. Tested in
-/// tests/model/test_scene.cpp.
+/// `most_pairs`; where there are parts or tractions beside a periodic patch; and for the neighbours `nearest` where
+/// particles are not on one lattice. Tested in tests/model/test_scene.cpp.
 template <int Dim>
 Scene<Dim> make_scene(const SceneDescription<Dim>& description);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/stress.hpp"
 #include "solver/updated_stepper.hpp"
 #include "solver/updated_stress.hpp"
 #include "solver/updated_weights.hpp"
@@ -28,9 +29,11 @@ void require_compressible(const Material& material) {
     throw InvalidInput(fmt::format("poisson_ratio: {} is not below 0.5 (scheme ul)", material.poisson_ratio()));
 }
 
+/// The periods of a box of these cells, in columns.
 template <int Dim>
-Tensor<Dim> periods(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
-  return problem.lattice.primitive_vectors() * cells.template cast<double>().asDiagonal();
+std::optional<Tensor<Dim>> periods(const Lattice<Dim>& lattice, const std::optional<LatticeIndex<Dim>>& cells) {
+  if (!cells) return std::nullopt;
+  return Tensor<Dim>(lattice.primitive_vectors() * cells->template cast<double>().asDiagonal());
 }
 
 template <class Scalar>
@@ -41,14 +44,14 @@ bool all_finite(const Scalar* numbers, int count) {
   return finite;
 }
 
-/// The first number of a state that is not finite.
+/// The first number of a state that is not finite, or a density that is not positive.
 template <int Dim, class Scalar>
 std::optional<NotFinite> not_finite(const UpdatedState<Dim, Scalar>& state, long step) {
   for (int a = 0; a < state.particles(); ++a) {
     const auto lost = [&](UpdatedQuantity quantity) { return NotFinite{step, a, quantity}; };
     if (!all_finite(state.position[a].data(), Dim)) return lost(UpdatedQuantity::position);
     if (!all_finite(state.velocity[a].data(), Dim)) return lost(UpdatedQuantity::velocity);
-    if (!all_finite(&state.density[a], 1)) return lost(UpdatedQuantity::density);
+    if (!all_finite(&state.density[a], 1) || !(state.density[a] > Scalar(0))) return lost(UpdatedQuantity::density);
     if (!all_finite(state.deviatoric_stress[a].data(), Dim * Dim)) return lost(UpdatedQuantity::deviatoric_stress);
   }
   return std::nullopt;
@@ -56,24 +59,110 @@ std::optional<NotFinite> not_finite(const UpdatedState<Dim, Scalar>& state, long
 
 }  // namespace
 
+UpdatedTerm maker_of(UpdatedQuantity quantity) {
+  switch (quantity) {
+    case UpdatedQuantity::position:
+      return UpdatedTerm::drift;
+    case UpdatedQuantity::velocity:
+      return UpdatedTerm::momentum;
+    case UpdatedQuantity::density:
+      return UpdatedTerm::continuity;
+    case UpdatedQuantity::deviatoric_stress:
+      return UpdatedTerm::deviatoric_stress_rate;
+  }
+  return {};
+}
+
+/// A system of solver/updated_stepper.hpp that makes the steps of a simulation and keeps the first term that broke.
 template <int Dim, class Scalar>
-UpdatedSimulation<Dim, Scalar>::UpdatedSimulation(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells)
-    : UpdatedSimulation(problem, periodic_patch(problem, cells), periods(problem, cells)) {}
+class UpdatedSimulation<Dim, Scalar>::Observed {
+ public:
+  explicit Observed(UpdatedSimulation& simulation) : simulation_(simulation) {}
+
+  const std::optional<BrokenTerm>& broken() const { return broken_; }
+
+  /// What came out of terms that were finite.
+  void look_at(const UpdatedState<Dim, Scalar>& state) {
+    if (broken_) return;
+    if (const auto lost = not_finite(state, 0)) broken_ = {maker_of(lost->quantity), lost->particle};
+  }
+
+  void place(const Field<Dim, Scalar>& position) {
+    look_at(UpdatedTerm::drift, position);
+    simulation_.place(position);
+    look_at_pairs(UpdatedTerm::pair_distance, [&](int, int, int pair) { return simulation_.F_[pair]; });
+  }
+
+  void forces(const UpdatedState<Dim, Scalar>& state, Field<Dim, Scalar>& acceleration) {
+    look_at(state);
+    simulation_.forces(state, acceleration);
+    look_at(UpdatedTerm::equation_of_state, simulation_.stress_);
+    look_at(UpdatedTerm::artificial_stress, simulation_.artificial_stress_);
+    if (simulation_.scheme_.viscosity) {
+      const ViscousConstants constants = simulation_.viscous_constants();
+      look_at_pairs(UpdatedTerm::viscosity, [&](int a, int b, int pair) {
+        return viscous_pair_term<Scalar, Dim>(state.velocity[a] - state.velocity[b], simulation_.separation_[pair],
+                                              state.density[a], state.density[b], constants.alpha_h_c0,
+                                              constants.eta_h_squared);
+      });
+    }
+    look_at(UpdatedTerm::momentum, acceleration);
+  }
+
+  const Field<Dim, Scalar>& smoothed(const UpdatedState<Dim, Scalar>& state) {
+    look_at(state);
+    const auto& smoothed = simulation_.smoothed(state);
+    look_at(UpdatedTerm::xsph, smoothed);
+    return smoothed;
+  }
+
+  void rates(const UpdatedState<Dim, Scalar>& state, const Field<Dim, Scalar>& smoothed,
+             UpdatedRates<Dim, Scalar>& rates) {
+    simulation_.rates(state, smoothed, rates);
+    look_at(UpdatedTerm::continuity, rates.density);
+    look_at(UpdatedTerm::deviatoric_stress_rate, rates.deviatoric_stress);
+  }
+
+  bool force_feels_velocity() const { return simulation_.force_feels_velocity(); }
+
+ private:
+  static bool is_finite(const Scalar& number) { return all_finite(&number, 1); }
+  template <int Rows, int Columns>
+  static bool is_finite(const Eigen::Matrix<Scalar, Rows, Columns>& numbers) {
+    return all_finite(numbers.data(), Rows * Columns);
+  }
+
+  template <class Values>
+  void look_at(UpdatedTerm term, const Values& values) {
+    for (int a = 0; a < static_cast<int>(values.size()) && !broken_; ++a)
+      if (!is_finite(values[a])) broken_ = {term, a};
+  }
+
+  template <class NumberOf>
+  void look_at_pairs(UpdatedTerm term, const NumberOf& number_of) {
+    for (int a = 0; a < simulation_.particles() && !broken_; ++a)
+      for (int pair = simulation_.first_[a]; pair < simulation_.first_[a + 1] && !broken_; ++pair)
+        if (!is_finite(number_of(a, simulation_.neighbour_[pair], pair))) broken_ = {term, a};
+  }
+
+  UpdatedSimulation& simulation_;
+  std::optional<BrokenTerm> broken_;
+};
 
 template <int Dim, class Scalar>
-UpdatedSimulation<Dim, Scalar>::UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body)
-    : UpdatedSimulation(problem, body, std::nullopt) {}
+UpdatedSimulation<Dim, Scalar>::UpdatedSimulation(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells)
+    : UpdatedSimulation(problem, periodic_patch(problem, cells), cells) {}
 
 template <int Dim, class Scalar>
 UpdatedSimulation<Dim, Scalar>::UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body,
-                                                  const std::optional<Tensor<Dim>>& box)
+                                                  const std::optional<LatticeIndex<Dim>>& periodic_cells)
     : scheme_(problem.scheme),
       integrator_(problem.integrator),
       kernel_(problem.kernel),
       spacing_(problem.lattice.spacing()),
       sound_speed_(std::sqrt(problem.material.bulk_modulus() / problem.material.density())),
       material_(body.material),
-      neighbours_(problem.kernel.support(), box),
+      neighbours_(problem.kernel.support(), periods(problem.lattice, periodic_cells)),
       first_(body.size() + 1, 0),
       stress_(body.size()),
       artificial_stress_(scheme_.artificial_stress ? body.size() : 0),
@@ -114,14 +203,32 @@ std::optional<NotFinite> UpdatedSimulation<Dim, Scalar>::advance(UpdatedState<Di
   hold(state);
   std::optional<NotFinite> lost = not_finite(state, 0);
   if (lost) return lost;
-  if (integrator_ == Integrator::predictor_corrector_pec && state.stored.density.empty()) {
-    state.stored = UpdatedRates<Dim, Scalar>(particles());
-    place(state.position);
-    solver::evaluate(*this, state, state.stored);
-  }
+  store_first_rates(*this, state);
   const auto go_on = [&](long step) { return !(lost = not_finite(state, step)); };
   solver::advance(integrator_, *this, static_cast<Scalar>(time_step), steps, state, rates_, next_rates_, go_on);
   return lost;
+}
+
+template <int Dim, class Scalar>
+template <class System>
+void UpdatedSimulation<Dim, Scalar>::store_first_rates(System& system, UpdatedState<Dim, Scalar>& state) const {
+  if (integrator_ != Integrator::predictor_corrector_pec || !state.stored.density.empty()) return;
+  state.stored = UpdatedRates<Dim, Scalar>(particles());
+  system.place(state.position);
+  solver::evaluate(system, state, state.stored);
+}
+
+template <int Dim, class Scalar>
+std::optional<BrokenTerm> UpdatedSimulation<Dim, Scalar>::broken_term(UpdatedState<Dim, Scalar> state,
+                                                                      double time_step) {
+  hold(state);
+  Observed observed(*this);
+  observed.look_at(state);
+  store_first_rates(observed, state);
+  const auto stop = [](long) { return false; };
+  solver::advance(integrator_, observed, static_cast<Scalar>(time_step), 1, state, rates_, next_rates_, stop);
+  observed.look_at(state);
+  return observed.broken();
 }
 
 template <int Dim, class Scalar>
@@ -207,13 +314,18 @@ void UpdatedSimulation<Dim, Scalar>::forces(const UpdatedState<Dim, Scalar>& sta
 }
 
 template <int Dim, class Scalar>
+typename UpdatedSimulation<Dim, Scalar>::ViscousConstants UpdatedSimulation<Dim, Scalar>::viscous_constants() const {
+  const double h = kernel_.smoothing_length();
+  const Viscosity viscosity = scheme_.viscosity.value_or(Viscosity{0.0, 0.0});
+  return {static_cast<Scalar>(viscosity.alpha * h * sound_speed_),
+          static_cast<Scalar>(viscosity.eta * h * viscosity.eta * h)};
+}
+
+template <int Dim, class Scalar>
 template <bool artificial, typename UpdatedSimulation<Dim, Scalar>::Viscous viscous>
 void UpdatedSimulation<Dim, Scalar>::sum_forces(const UpdatedState<Dim, Scalar>& state,
                                                 Field<Dim, Scalar>& acceleration) {
-  const double h = kernel_.smoothing_length();
-  const Viscosity viscosity = scheme_.viscosity.value_or(Viscosity{0.0, 0.0});
-  const Scalar alpha_h_c0 = static_cast<Scalar>(viscosity.alpha * h * sound_speed_);
-  const Scalar eta_h_squared = static_cast<Scalar>(viscosity.eta * h * viscosity.eta * h);
+  const auto [alpha_h_c0, eta_h_squared] = viscous_constants();
   std::fill(acceleration.begin(), acceleration.end(), Vector<Dim, Scalar>::Zero());
   for (int a = 0; a < particles(); ++a) {
     Vector<Dim, Scalar> sum = Vector<Dim, Scalar>::Zero();
@@ -311,6 +423,37 @@ Tensor<Dim, Scalar> UpdatedSimulation<Dim, Scalar>::stress(const UpdatedState<Di
   return total_stress<Scalar, Dim>(
       pressure(state.density[a], substance.reference_density, substance.sound_speed_squared),
       state.deviatoric_stress[a]);
+}
+
+template <int Dim, class Scalar>
+Scalar UpdatedSimulation<Dim, Scalar>::von_mises_stress(const UpdatedState<Dim, Scalar>& state, int a) const {
+  return solver::von_mises_stress(deviatoric_stress_in_space<Scalar, Dim>(state.deviatoric_stress[a]));
+}
+
+template <int Dim, class Scalar>
+std::vector<int> UpdatedSimulation<Dim, Scalar>::isolated_particles() const {
+  std::vector<bool> has_neighbour(mass_.size(), particles() == 1);
+  for (int a = 0; a < particles(); ++a)
+    for (int pair = first_[a]; pair < first_[a + 1]; ++pair) has_neighbour[a] = has_neighbour[neighbour_[pair]] = true;
+  std::vector<int> isolated;
+  for (int a = 0; a < particles(); ++a)
+    if (!has_neighbour[a]) isolated.push_back(a);
+  return isolated;
+}
+
+template <int Dim, class Scalar>
+Scalar UpdatedSimulation<Dim, Scalar>::elastic_energy(const UpdatedState<Dim, Scalar>& state) const {
+  Scalar energy(0);
+  for (int a = 0; a < particles(); ++a) {
+    const auto& [reference_density, sound_speed_squared, shear_modulus] = substances_[material_[a]];
+    const Scalar P = pressure(state.density[a], reference_density, sound_speed_squared);
+    Scalar density = P * P / (Scalar(2) * reference_density * sound_speed_squared);
+    if (shear_modulus > Scalar(0))
+      density += deviatoric_stress_in_space<Scalar, Dim>(state.deviatoric_stress[a]).squaredNorm() /
+                 (Scalar(4) * shear_modulus);
+    energy += mass_[a] / state.density[a] * density;
+  }
+  return energy;
 }
 
 template <int Dim, class Scalar>

@@ -16,6 +16,19 @@ namespace sphstab::solver {
 /// The quantities of a state.
 enum class UpdatedQuantity { position, velocity, density, deviatoric_stress };
 
+/// What a step evaluates, in its order, and what it makes of that.
+enum class UpdatedTerm {
+  pair_distance,           ///< r, W(r) and W'(r)/r of all pairs: no direction where two particles are in one place
+  equation_of_state,       ///< σ/ρ²
+  artificial_stress,       ///< R
+  viscosity,               ///< Π of a pair
+  momentum,                ///< the sum F, loads included, and v + Δt F
+  xsph,                    ///< v̂
+  continuity,              ///< dρ/dt, and ρ + Δt dρ/dt, which must stay positive
+  deviatoric_stress_rate,  ///< dS/dt, and S + Δt dS/dt
+  drift                    ///< r + Δt v̂
+};
+
 }  // namespace sphstab::solver
 
 namespace sphstab {
@@ -29,15 +42,39 @@ struct Names<solver::UpdatedQuantity> {
        {solver::UpdatedQuantity::deviatoric_stress, "deviatoric stress"}}};
 };
 
+template <>
+struct Names<solver::UpdatedTerm> {
+  static constexpr std::array<Named<solver::UpdatedTerm>, 9> table{
+      {{solver::UpdatedTerm::pair_distance, "pair distance"},
+       {solver::UpdatedTerm::equation_of_state, "equation of state"},
+       {solver::UpdatedTerm::artificial_stress, "artificial stress"},
+       {solver::UpdatedTerm::viscosity, "viscosity"},
+       {solver::UpdatedTerm::momentum, "momentum sum"},
+       {solver::UpdatedTerm::xsph, "XSPH"},
+       {solver::UpdatedTerm::continuity, "continuity"},
+       {solver::UpdatedTerm::deviatoric_stress_rate, "deviatoric stress rate"},
+       {solver::UpdatedTerm::drift, "drift"}}};
+};
+
 }  // namespace sphstab
 
 namespace sphstab::solver {
 
-/// Where a run left the numbers: the first particle, and its first quantity, that is infinite or no number.
+/// Where a run left the numbers: the first particle, and its first quantity, that is infinite or no number, or a
+/// density that is not positive.
 struct NotFinite {
   long step;  ///< of this call, from 1; 0: the state was not finite to begin with
   int particle;
   UpdatedQuantity quantity;
+};
+
+/// The term whose rate a quantity has.
+UpdatedTerm maker_of(UpdatedQuantity quantity);
+
+/// The term of a step that first made no number, and the first particle of which.
+struct BrokenTerm {
+  UpdatedTerm term;
+  int particle;
 };
 
 /// How often each part of a step has been evaluated, each time for all particles.
@@ -67,10 +104,12 @@ class UpdatedSimulation {
  public:
   /// A periodic box of n_1 × … × n_Dim cells of the lattice (periodic_patch).
   UpdatedSimulation(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
-  /// Free particles of a body, some perhaps held or loaded. Of its neighbours nothing is used.
+  /// The particles of a body, some perhaps held or loaded: free ones, or in a periodic box of so many cells of the
+  /// lattice. Of the neighbours of the body nothing is used.
   /// Both throw InvalidInput for another scheme, another rule of neighbours than `support`, plane stress and materials
   /// of Poisson's ratio 0.5 other than fluids.
-  UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body);
+  UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body,
+                    const std::optional<LatticeIndex<Dim>>& periodic_cells = std::nullopt);
 
   int particles() const { return static_cast<int>(mass_.size()); }
 
@@ -81,6 +120,11 @@ class UpdatedSimulation {
   /// leaves the finite numbers, and says where. The state is first made to obey the clamps. With
   /// predictor-corrector-pec a state without stored rates gets those of its own first.
   std::optional<NotFinite> advance(UpdatedState<Dim, Scalar>& state, double time_step, long steps = 1);
+
+  /// What broke in the one step from a finite state to one that is not: makes it once more and looks at every part of
+  /// it in its turn. Nothing if it is a step to a finite state. Tested term by term in
+  /// tests/solver/test_updated_failures.cpp.
+  std::optional<BrokenTerm> broken_term(UpdatedState<Dim, Scalar> state, double time_step);
 
   /// What solver/updated_stepper.hpp asks of a system, of states that obey the clamps. All but the first are those of
   /// the positions that were placed last.
@@ -97,7 +141,17 @@ class UpdatedSimulation {
   /// σ of particle a, a pressure, positive in tension.
   Tensor<Dim, Scalar> stress(const UpdatedState<Dim, Scalar>& state, int a) const;
 
+  /// Von Mises stress of particle a with the stress out of the modelled directions counted.
+  Scalar von_mises_stress(const UpdatedState<Dim, Scalar>& state, int a) const;
+
+  /// Particles that have no other one within the support of the positions that were placed last; not a single one in
+  /// its box.
+  std::vector<int> isolated_particles() const;
+
   double mass(int a) const { return value_of(mass_[a]); }
+  /// Σ (m/ρ)(P²/(2K) + |S|²/(4μ)), |S|² with its components out of the modelled directions; a fluid has no S. An energy
+  /// (per thickness in 2-D): that of small strains of an elastic body, which no sum of the scheme keeps exactly.
+  Scalar elastic_energy(const UpdatedState<Dim, Scalar>& state) const;
   /// ½ Σ m v², with the velocity that is not smoothed.
   Scalar kinetic_energy(const UpdatedState<Dim, Scalar>& state) const;
   /// Σ m v.
@@ -120,12 +174,18 @@ class UpdatedSimulation {
     int axis;
   };
   enum class Viscous { none, all, approaching };
-
-  UpdatedSimulation(const Problem<Dim>& problem, const Body<Dim>& body, const std::optional<Tensor<Dim>>& box);
+  struct ViscousConstants {
+    Scalar alpha_h_c0;
+    Scalar eta_h_squared;
+  };
+  class Observed;
 
   void hold(Field<Dim, Scalar>& field) const;
 
+  template <class System>
+  void store_first_rates(System& system, UpdatedState<Dim, Scalar>& state) const;
   void weigh_pairs(int begin, int size);
+  ViscousConstants viscous_constants() const;
   void store_stresses(const UpdatedState<Dim, Scalar>& state);
   template <bool artificial, Viscous viscous>
   void sum_forces(const UpdatedState<Dim, Scalar>& state, Field<Dim, Scalar>& acceleration);

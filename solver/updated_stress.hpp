@@ -25,6 +25,15 @@ Tensor<Dim, Scalar> total_stress(const Scalar& pressure, const Tensor<Dim, Scala
   return stress;
 }
 
+/// S in space: traceless, and alike in the directions that are not modelled (plane strain, uniaxial strain).
+template <class Scalar, int Dim>
+Tensor<3, Scalar> deviatoric_stress_in_space(const Tensor<Dim, Scalar>& S) {
+  Tensor<3, Scalar> in_space = Tensor<3, Scalar>::Zero();
+  if constexpr (Dim < 3) in_space.diagonal().setConstant(-S.trace() / Scalar(3 - Dim));
+  in_space.template topLeftCorner<Dim, Dim>() = S;
+  return in_space;
+}
+
 /// dS/dt = 2μ (ε̇ − ⅓ tr(ε̇) I) + S Ωᵀ + Ω S with the rate of strain ε̇ and the spin Ω, the symmetric and the
 /// antisymmetric part of L_ij = ∂v_i/∂x_j (2.3-2.5); ⅓ in all dimensions, whose missing strains are zero.
 template <class Scalar, int Dim>

@@ -1,36 +1,91 @@
 // SPDX-License-Identifier: MIT
 #include "study/scene_input.hpp"
 
+#include <fmt/format.h>
+
+#include <random>
+
 #include "io/case_input.hpp"
 #include "io/scene_input.hpp"
+#include "model/uniform.hpp"
 #include "study/counts.hpp"
+#include "study/p_wave_speed.hpp"
 
 namespace sphstab::study {
 
 bool names_body(const Case& input) { return input.has("plate") || input.has("scene"); }
 
+namespace {
+
 template <int Dim>
-Scene<Dim> make_scene(const Case& input) {
-  if (!names_body(input)) throw InvalidInput("scene: missing (or plate)");
-  if (const auto name = input.word("scheme")) {
-    Scheme scheme;
-    scheme.formulation = from_name<Formulation>("scheme", *name);
-    require_total_lagrangian(scheme, "a plate or scene");
-  }
-  if (input.has("scene")) {
-    if (input.has("plate")) throw InvalidInput("plate: cannot be given with scene");
-    return io::read_scene<Dim>(input);
-  }
-  const auto counts = make_size<Dim>(input, "plate");
+Scene<Dim> make_plate(const Case& input) {
   const auto problem = make_problem<Dim>(input);
-  Scene<Dim> scene{.name = "free plate", .problem = problem, .body = free_plate(problem, *counts), .probes = {}};
+  Scene<Dim> scene{.name = "free plate",
+                   .problem = problem,
+                   .body = free_plate(problem, *make_size<Dim>(input, "plate")),
+                   .probes = {}};
   const Vector<Dim> gravity = make_gravity<Dim>(input);
   if (!gravity.isZero(0.0)) scene.body.load.assign(scene.body.size(), gravity);
   return scene;
 }
 
+template <int Dim>
+Scene<Dim> make_patch(const Case& input) {
+  const auto problem = make_problem<Dim>(input);
+  return make_scene(SceneDescription<Dim>{.name = "periodic patch",
+                                          .problem = problem,
+                                          .materials = {problem.material},
+                                          .parts = {},
+                                          .periodic_cells = make_size<Dim>(input, "patch"),
+                                          .gravity = make_gravity<Dim>(input)});
+}
+
+template <int Dim>
+Scene<Dim> named_scene(const Case& input) {
+  if (input.has("scene")) {
+    if (input.has("plate")) throw InvalidInput("plate: cannot be given with scene");
+    return io::read_scene<Dim>(input);
+  }
+  if (!input.has("patch")) return make_plate<Dim>(input);
+  if (input.has("plate")) throw InvalidInput("plate: cannot be given with patch");
+  return make_patch<Dim>(input);
+}
+
+template <int Dim>
+void require_equilibrium(const Scene<Dim>& scene) {
+  const bool stressed = scene.problem.pressure != 0.0 || !scene.problem.deviatoric_stress.isZero(0.0);
+  if (stressed && !scene.periodic_cells)
+    throw InvalidInput(
+        fmt::format("{}: a body with free surfaces is in no equilibrium under a stress; only a periodic patch is",
+                    scene.problem.pressure != 0.0 ? "pressure" : "deviatoric_stress"));
+}
+
+/// Adds velocities of which every component is uniform in ±`speed`.
+template <int Dim>
+void add_noise(Scene<Dim>& scene, double speed, unsigned seed) {
+  std::mt19937_64 generator(seed);
+  scene.velocity.resize(scene.body.size(), Vector<Dim>::Zero());
+  for (int a = 0; a < scene.body.size(); ++a)
+    for (int i = 0; i < Dim; ++i) {
+      const double noise = speed * uniform_number(generator);
+      if (scene.body.clamped.empty() || !scene.body.clamped[a][i]) scene.velocity[a][i] += noise;
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+Scene<Dim> make_scene(const Case& input) {
+  if (!names_body(input) && !input.has("patch")) throw InvalidInput("scene: missing (or plate)");
+  Scene<Dim> scene = named_scene<Dim>(input);
+  require_equilibrium(scene);
+  if (const double noise = input.required_number("initial_noise"); noise > 0.0)
+    add_noise(scene, noise * p_wave_speed(scene.problem), static_cast<unsigned>(input.required_number("noise_seed")));
+  return scene;
+}
+
 Json body_name(const Case& input) {
-  const char* key = input.has("scene") ? "scene" : "plate";
+  const char* key = input.has("scene") ? "scene" : input.has("plate") ? "plate" : "patch";
   return {{key, io::to_json(input, find_key(key))}};
 }
 

@@ -9,8 +9,11 @@ namespace sphstab::study {
 /// Whether the case names a whole body: by `plate` or by `scene`.
 bool names_body(const Case& input);
 
-/// That body with its problem: a free plate, or the scene of the file (its keys are in `input` already,
-/// io::with_scene_keys). Throws InvalidInput if the case names none, or both, and for whatever is wrong with it.
+/// What the case names, with its problem: a free plate, a periodic patch, or the scene of the file (its keys are in
+/// `input` already, io::with_scene_keys), which may be a patch. `initial_noise` adds to the velocities of all particles
+/// that are not held. Throws InvalidInput if the case names nothing, or two of them; (`pressure`) where a body of `ul`
+/// with free surfaces has a stress, under which it is in no equilibrium; and for whatever else is wrong. Tested in
+/// tests/study/test_scene_input.cpp.
 template <int Dim>
 Scene<Dim> make_scene(const Case& input);
 

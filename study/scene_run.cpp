@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "solver/simulation.hpp"
+#include "solver/updated_simulation.hpp"
 
 namespace sphstab::study {
 namespace {
 
 using solver::Field;
-using solver::State;
 
 /// Steps between two looks at the whole body, each of which costs half a right-hand side.
 constexpr long look_every = 50;
@@ -25,20 +25,151 @@ constexpr double rounding_of_steps = 1e-12;
 /// More steps than a run can take; far below the largest whole number.
 constexpr double most_steps = 1e15;
 
+template <class Numbers>
+bool in_range(const Numbers& numbers) {
+  return (numbers.array().abs() <= largest_number).all();
+}
+
 template <int Dim>
 std::optional<int> first_not_finite(const Field<Dim>& field) {
-  const auto found = std::find_if(field.begin(), field.end(),
-                                  [](const Vector<Dim>& y) { return !(y.array().abs() <= largest_number).all(); });
+  const auto found = std::find_if(field.begin(), field.end(), [](const Vector<Dim>& y) { return !in_range(y); });
   if (found == field.end()) return std::nullopt;
   return static_cast<int>(found - field.begin());
 }
 
+/// A number that is none.
+struct LostNumber {
+  int particle;
+  std::string_view field;
+  std::optional<std::string_view> term = std::nullopt;
+};
+
+/// A scene of `tl-linear` as it moves. This, and the class of the same members below, is what a run knows of a
+/// formulation.
 template <int Dim>
-double largest_norm(const Field<Dim>& field) {
-  double norm = 0.0;
-  for (const auto& y : field) norm = std::max(norm, y.norm());
-  return norm;
-}
+class LinearMotion {
+ public:
+  using State = solver::State<Dim>;
+
+  explicit LinearMotion(const Scene<Dim>& scene)
+      : simulation_(scene.problem, scene.body), state_(scene.body.size()), force_at_start_(accelerations()) {
+    if (!scene.velocity.empty()) state_.velocity = scene.velocity;
+    simulation_.hold(state_);
+  }
+
+  int particles() const { return state_.particles(); }
+  double mass(int a) const { return simulation_.inertia(a); }  ///< with which energy and momentum are kept
+
+  const State& state() const { return state_; }
+  void go_back_to(const State& state) { state_ = state; }
+  void advance(double time_step, long steps) { simulation_.advance(state_, time_step, steps); }
+
+  const Vector<Dim>& displacement(int a) const { return state_.displacement[a]; }
+  const Vector<Dim>& velocity(int a) const { return state_.velocity[a]; }
+  Tensor<Dim> stress(int a) const { return simulation_.stress(state_, a); }
+  double von_mises_stress(int a) const { return simulation_.von_mises_stress(state_, a); }
+  std::vector<double> density() const { return {}; }
+  double strain_energy() const { return simulation_.strain_energy(state_); }
+
+  Field<Dim> accelerations() {
+    Field<Dim> force(particles());
+    simulation_.accelerations(state_, force);
+    return force;
+  }
+  /// Of loads and base state, per mass: the forces that do work whatever moves.
+  const Field<Dim>& constant_force() const { return force_at_start_; }
+
+  /// The first number of the state that is none, velocities first.
+  std::optional<LostNumber> lost_number() const {
+    if (const auto a = first_not_finite<Dim>(state_.velocity)) return LostNumber{*a, "velocity"};
+    if (const auto a = first_not_finite<Dim>(state_.displacement)) return LostNumber{*a, "displacement"};
+    return std::nullopt;
+  }
+  /// The number that one step from a state of numbers has lost.
+  LostNumber failure(const State&, double) const { return *lost_number(); }
+
+  std::vector<int> lost_particles() const { return {}; }
+  long right_hand_sides() const { return simulation_.right_hand_sides(); }
+  std::optional<long> list_builds() const { return std::nullopt; }
+
+ private:
+  solver::Simulation<Dim> simulation_;
+  State state_;
+  Field<Dim> force_at_start_;
+};
+
+/// A scene of `ul` as it moves.
+template <int Dim>
+class UpdatedMotion {
+ public:
+  using State = solver::UpdatedState<Dim>;
+
+  explicit UpdatedMotion(const Scene<Dim>& scene)
+      : simulation_(scene.problem, scene.body, scene.periodic_cells),
+        state_(simulation_.base_state()),
+        start_(scene.body.position),
+        load_(scene.body.load) {
+    load_.resize(particles(), Vector<Dim>::Zero());
+    if (!scene.velocity.empty()) state_.velocity = scene.velocity;
+    simulation_.hold(state_);
+  }
+
+  int particles() const { return simulation_.particles(); }
+  double mass(int a) const { return simulation_.mass(a); }
+
+  const State& state() const { return state_; }
+  void go_back_to(const State& state) { state_ = state; }
+  void advance(double time_step, long steps) { simulation_.advance(state_, time_step, steps); }
+
+  Vector<Dim> displacement(int a) const { return state_.position[a] - start_[a]; }
+  const Vector<Dim>& velocity(int a) const { return state_.velocity[a]; }
+  Tensor<Dim> stress(int a) const { return simulation_.stress(state_, a); }
+  double von_mises_stress(int a) const { return simulation_.von_mises_stress(state_, a); }
+  const std::vector<double>& density() const { return state_.density; }
+  double strain_energy() const { return simulation_.elastic_energy(state_); }
+
+  Field<Dim> accelerations() {
+    Field<Dim> force(particles());
+    simulation_.place(state_.position);
+    simulation_.forces(state_, force);
+    return force;
+  }
+  const Field<Dim>& constant_force() const { return load_; }
+
+  std::optional<LostNumber> lost_number() const {
+    for (int a = 0; a < particles(); ++a)
+      if (const auto quantity = lost_quantity(a)) return LostNumber{a, name_of(*quantity)};
+    return std::nullopt;
+  }
+  LostNumber failure(const State& before, double time_step) {
+    const LostNumber first = *lost_number();
+    const auto broken = simulation_.broken_term(before, time_step);
+    if (!broken) return {first.particle, first.field, name_of(solver::maker_of(*lost_quantity(first.particle)))};
+    const auto quantity = lost_quantity(broken->particle);
+    return {broken->particle, quantity ? name_of(*quantity) : first.field, name_of(broken->term)};
+  }
+
+  std::vector<int> lost_particles() {
+    simulation_.place(state_.position);
+    return simulation_.isolated_particles();
+  }
+  long right_hand_sides() const { return simulation_.work().forces; }
+  std::optional<long> list_builds() const { return simulation_.work().list_builds; }
+
+ private:
+  std::optional<solver::UpdatedQuantity> lost_quantity(int a) const {
+    if (!in_range(state_.velocity[a])) return solver::UpdatedQuantity::velocity;
+    if (!in_range(state_.position[a])) return solver::UpdatedQuantity::position;
+    if (!(state_.density[a] > 0.0 && state_.density[a] <= largest_number)) return solver::UpdatedQuantity::density;
+    if (!in_range(state_.deviatoric_stress[a])) return solver::UpdatedQuantity::deviatoric_stress;
+    return std::nullopt;
+  }
+
+  solver::UpdatedSimulation<Dim> simulation_;
+  State state_;
+  Field<Dim> start_;
+  Field<Dim> load_;
+};
 
 /// The directions in which no particle is clamped: only there is momentum kept.
 template <int Dim>
@@ -48,7 +179,7 @@ Directions<Dim> free_directions(const Body<Dim>& body) {
   return free;
 }
 
-template <int Dim>
+template <int Dim, class Motion>
 class Run {
  public:
   Run(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options)
@@ -57,13 +188,12 @@ class Run {
         steps_(static_cast<long>(std::ceil(options.duration / options.time_step * (1.0 - rounding_of_steps)))),
         sample_stride_(options.probe_samples ? (steps_ + *options.probe_samples - 1) / *options.probe_samples : 1),
         snapshots_(std::min(options.snapshots, steps_)),
-        simulation_(scene.problem, scene.body),
+        motion_(scene),
+        last_finite_(motion_.state()),
         free_(free_directions(scene.body)),
-        state_(scene.body.size()),
-        last_finite_(scene.body.size()),
-        force_at_rest_(scene.body.size()) {
-    simulation_.accelerations(state_, force_at_rest_);
-    for (int a = 0; a < scene.body.size(); ++a) total_force_ += simulation_.inertia(a) * force_at_rest_[a];
+        momentum_at_start_(momentum()),
+        initial_energy_(kinetic_energy() + motion_.strain_energy()) {
+    for (int a = 0; a < motion_.particles(); ++a) total_force_ += motion_.mass(a) * motion_.constant_force()[a];
     for (const auto& probe : scene.probes) probes_.push_back({probe.name, probe.particle, {}, {}, {}});
   }
 
@@ -75,7 +205,7 @@ class Run {
       if (options_.snapshots > 0 && step_ != step_of_last_snapshot_) take_snapshot();
       if (!probes_.empty() && time() != sample_times_.back()) sample();
     }
-    return {state_, sample_times_, probes_, summary(), failure_};
+    return {snapshot(), sample_times_, probes_, summary(), failure_};
   }
 
  private:
@@ -97,10 +227,10 @@ class Run {
 
   /// False if a number was not finite on the way; then the state is that of the step before.
   bool advance_to(long end) {
-    last_finite_ = state_;
-    simulation_.advance(state_, options_.time_step, end - step_);
-    if (!is_finite()) {
-      state_ = last_finite_;
+    last_finite_ = motion_.state();
+    motion_.advance(options_.time_step, end - step_);
+    if (motion_.lost_number()) {
+      motion_.go_back_to(last_finite_);
       find_failure();
       return false;
     }
@@ -108,21 +238,16 @@ class Run {
     return true;
   }
 
-  bool is_finite() const {
-    return !first_not_finite<Dim>(state_.velocity) && !first_not_finite<Dim>(state_.displacement);
-  }
-
   /// Goes the way again step by step, which gives the same numbers.
   void find_failure() {
-    while (is_finite()) {
-      last_finite_ = state_;
-      simulation_.advance(state_, options_.time_step);
+    while (!motion_.lost_number()) {
+      last_finite_ = motion_.state();
+      motion_.advance(options_.time_step, 1);
       ++step_;
     }
-    const auto of_velocity = first_not_finite<Dim>(state_.velocity);
-    const auto particle = of_velocity ? of_velocity : first_not_finite<Dim>(state_.displacement);
-    failure_ = {step_, time(), *particle, of_velocity ? "velocity" : "displacement"};
-    state_ = last_finite_;
+    const LostNumber lost = motion_.failure(last_finite_, options_.time_step);
+    failure_ = {step_, time(), lost.particle, lost.field, lost.term};
+    motion_.go_back_to(last_finite_);
     --step_;
   }
 
@@ -133,57 +258,68 @@ class Run {
   }
 
   void look() {
-    largest_displacement_ = std::max(largest_displacement_, largest_norm<Dim>(state_.displacement));
-    largest_velocity_ = std::max(largest_velocity_, largest_norm<Dim>(state_.velocity));
-    Vector<Dim> momentum = Vector<Dim>::Zero();
     double momentum_scale = 0.0;
-    for (int a = 0; a < simulation_.particles(); ++a) {
-      largest_von_mises_ = std::max(largest_von_mises_, simulation_.von_mises_stress(state_, a));
-      momentum += simulation_.inertia(a) * state_.velocity[a];
-      momentum_scale += simulation_.inertia(a) * state_.velocity[a].norm();
+    for (int a = 0; a < motion_.particles(); ++a) {
+      largest_displacement_ = std::max(largest_displacement_, motion_.displacement(a).norm());
+      largest_velocity_ = std::max(largest_velocity_, motion_.velocity(a).norm());
+      largest_von_mises_ = std::max(largest_von_mises_, motion_.von_mises_stress(a));
+      momentum_scale += motion_.mass(a) * motion_.velocity(a).norm();
     }
-    const Vector<Dim> drift = free_.template cast<double>() * (momentum - momentum_given_by_forces()).array();
+    const Vector<Dim> drift = free_.template cast<double>() * (momentum() - momentum_without_drift()).array();
     largest_momentum_drift_ = std::max(largest_momentum_drift_, drift.norm());
     largest_momentum_ = std::max(largest_momentum_, momentum_scale);
     if (options_.progress) options_.progress(step_, steps_);
   }
 
-  /// Forces at rest f add nf Δt up to step n, of which damping leaves (f/c)(1 − qⁿ) with q = 1 − cΔt of a leapfrog step
-  /// and (1 − ½cΔt)² of a Verlet step.
-  Vector<Dim> momentum_given_by_forces() const {
-    if (!scene_.problem.scheme.damping) return time() * total_force_;
+  Vector<Dim> momentum() const {
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (int a = 0; a < motion_.particles(); ++a) sum += motion_.mass(a) * motion_.velocity(a);
+    return sum;
+  }
+
+  /// Constant forces f add nf Δt to the momentum p of the start up to step n. Damping leaves qⁿ p + (f/c)(1 − qⁿ) with
+  /// q = 1 − cΔt of a leapfrog step and (1 − ½cΔt)² of a Verlet step.
+  Vector<Dim> momentum_without_drift() const {
+    if (!scene_.problem.scheme.damping) return momentum_at_start_ + time() * total_force_;
     const double rate = scene_.problem.scheme.damping->rate, decay = rate * options_.time_step;
     const double q =
         scene_.problem.integrator == Integrator::leapfrog ? 1.0 - decay : (1.0 - 0.5 * decay) * (1.0 - 0.5 * decay);
-    return (1.0 - std::pow(q, step_)) / rate * total_force_;
+    const double kept = std::pow(q, step_);
+    return kept * momentum_at_start_ + (1.0 - kept) / rate * total_force_;
   }
 
   void sample() {
     sample_times_.push_back(time());
     for (auto& probe : probes_) {
-      probe.displacement.push_back(state_.displacement[probe.particle]);
-      probe.velocity.push_back(state_.velocity[probe.particle]);
-      probe.stress.push_back(simulation_.stress(state_, probe.particle));
+      probe.displacement.push_back(motion_.displacement(probe.particle));
+      probe.velocity.push_back(motion_.velocity(probe.particle));
+      probe.stress.push_back(motion_.stress(probe.particle));
     }
+  }
+
+  Snapshot<Dim> snapshot() const {
+    Snapshot<Dim> snapshot{step_, time(), {}, {}, {}, {}, motion_.density()};
+    for (int a = 0; a < motion_.particles(); ++a) {
+      snapshot.displacement.push_back(motion_.displacement(a));
+      snapshot.velocity.push_back(motion_.velocity(a));
+      snapshot.stress.push_back(motion_.stress(a));
+      snapshot.von_mises_stress.push_back(motion_.von_mises_stress(a));
+    }
+    return snapshot;
   }
 
   void take_snapshot() {
     ++next_snapshot_;
     step_of_last_snapshot_ = step_;
-    if (!options_.visit) return;
-    Snapshot<Dim> snapshot{step_, time(), state_, {}, {}};
-    for (int a = 0; a < simulation_.particles(); ++a) {
-      snapshot.stress.push_back(simulation_.stress(state_, a));
-      snapshot.von_mises_stress.push_back(simulation_.von_mises_stress(state_, a));
-    }
-    options_.visit(snapshot);
+    if (options_.visit) options_.visit(snapshot());
   }
 
   SceneSummary summary() {
-    const long right_hand_sides = simulation_.right_hand_sides();
+    const long right_hand_sides = motion_.right_hand_sides();
+    const auto list_builds = motion_.list_builds();
     double work = 0.0;
-    for (int a = 0; a < simulation_.particles(); ++a)
-      work += simulation_.inertia(a) * force_at_rest_[a].dot(state_.displacement[a]);
+    for (int a = 0; a < motion_.particles(); ++a)
+      work += motion_.mass(a) * motion_.constant_force()[a].dot(motion_.displacement(a));
     std::optional<double> momentum_drift;
     if (free_.any()) momentum_drift = largest_momentum_ > 0.0 ? largest_momentum_drift_ / largest_momentum_ : 0.0;
     return {.time = time(),
@@ -192,20 +328,24 @@ class Run {
             .largest_displacement = largest_displacement_,
             .largest_velocity = largest_velocity_,
             .largest_von_mises_stress = largest_von_mises_,
-            .kinetic_energy = simulation_.kinetic_energy(synchronised()),
-            .strain_energy = simulation_.strain_energy(state_),
+            .initial_energy = initial_energy_,
+            .kinetic_energy = kinetic_energy(),
+            .strain_energy = motion_.strain_energy(),
             .work = work,
-            .momentum_drift = momentum_drift};
+            .momentum_drift = momentum_drift,
+            .list_builds = list_builds,
+            .lost_particles = motion_.lost_particles()};
   }
 
-  /// The state with velocities at the time of the displacements.
-  State<Dim> synchronised() {
-    State<Dim> state = state_;
-    if (scene_.problem.integrator != Integrator::leapfrog || step_ == 0) return state;
-    Field<Dim> force(state.particles());
-    simulation_.accelerations(state, force);
-    for (int a = 0; a < state.particles(); ++a) state.velocity[a] += 0.5 * options_.time_step * force[a];
-    return state;
+  /// ½ Σ m v² with velocities at the time of the displacements. Those of the start are taken as they are.
+  double kinetic_energy() {
+    const bool behind = scene_.problem.integrator == Integrator::leapfrog && step_ > 0;
+    const double kick = behind ? 0.5 * options_.time_step : 0.0;
+    const Field<Dim> force = behind ? motion_.accelerations() : Field<Dim>(motion_.particles(), Vector<Dim>::Zero());
+    double energy = 0.0;
+    for (int a = 0; a < motion_.particles(); ++a)
+      energy += 0.5 * motion_.mass(a) * (motion_.velocity(a) + kick * force[a]).squaredNorm();
+    return energy;
   }
 
   const Scene<Dim>& scene_;
@@ -213,14 +353,14 @@ class Run {
   long steps_;
   long sample_stride_;
   long snapshots_;
-  solver::Simulation<Dim> simulation_;
+  long step_ = 0;
+  Motion motion_;
+  typename Motion::State last_finite_;
   Directions<Dim> free_;
-  State<Dim> state_;
-  State<Dim> last_finite_;
-  Field<Dim> force_at_rest_;  ///< per mass
+  Vector<Dim> momentum_at_start_;
+  double initial_energy_;
   Vector<Dim> total_force_ = Vector<Dim>::Zero();
 
-  long step_ = 0;
   long next_snapshot_ = 0;
   long step_of_last_snapshot_ = -1;
   std::vector<double> sample_times_;
@@ -242,7 +382,13 @@ SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim
   if (!(options.duration / options.time_step <= most_steps))
     throw InvalidInput(
         fmt::format("duration: {} takes more than {} steps of {}", options.duration, most_steps, options.time_step));
-  return Run<Dim>(scene, options).result();
+  switch (scene.problem.scheme.formulation) {
+    case Formulation::total_lagrangian_linear:
+      return Run<Dim, LinearMotion<Dim>>(scene, options).result();
+    case Formulation::updated_lagrangian:
+      return Run<Dim, UpdatedMotion<Dim>>(scene, options).result();
+  }
+  return {};
 }
 
 template SceneRunResult<1> run_scene(const Scene<1>&, const SceneRunOptions<1>&);

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "analysis/growth.hpp"
+#include "analysis/updated_modes.hpp"
+#include "io/document.hpp"
+#include "io/particle_output.hpp"
+#include "io/scene_input.hpp"
+#include "study/answers.hpp"
+#include "study/json_values.hpp"
+#include "study/particle_pictures.hpp"
+#include "study/scene_input.hpp"
+#include "study/scene_run.hpp"
+#include "study/step_comparison.hpp"
+
+namespace sphstab::study {
+namespace {
+
+/// Rows of probes.csv at most: some megabytes a probe.
+constexpr long largest_probe_table = 20000;
+
+/// Energy that neither the loads nor the start have given shows that the run has grown.
+constexpr double energy_that_shows_growth = 1e3;
+
+/// What theory says of the steps of a scene.
+struct StepTheory {
+  std::optional<double> critical_time_step;  ///< that the key step_fraction is of
+  std::string of;                            ///< what it is the critical step of
+  /// ln of the spectral radius of the fastest mode, growth per step; absent: nothing is predicted.
+  std::function<double(double time_step)> growth_per_step = nullptr;
+};
+
+template <int Dim>
+StepTheory linear_theory(const Scene<Dim>& scene) {
+  if (!scene.periodic_cells) return {theory_limit<Dim>(scene.problem, scene.body).critical_time_step, "body spectrum"};
+  return {theory_limit<Dim>(scene.problem, PeriodicPatch<Dim>{*scene.periodic_cells}).critical_time_step,
+          "periodic patch"};
+}
+
+constexpr std::string_view of_the_lattice = "infinite lattice";
+constexpr std::string_view of_its_frequencies = "infinite lattice, 2/omega_max (the integrator grows at every step)";
+constexpr std::string_view of_growing_state = "infinite lattice, 2/omega_max (the state itself grows)";
+
+/// The step of the infinite lattice of one material; where there is none because every step grows, 2/√(max ω²).
+template <int Dim>
+StepTheory lattice_theory(const Problem<Dim>& problem) {
+  const auto modes = std::make_shared<analysis::UpdatedModes<Dim>>(problem);
+  const auto growth = [modes](double time_step) { return std::log(modes->spectral_radius(time_step)); };
+  const auto of_frequencies = [&](std::string_view of) -> StepTheory {
+    const double fastest = analysis::growth_range(problem).omega_squared_max;
+    return {fastest > 0.0 ? std::optional(2.0 / std::sqrt(fastest)) : std::nullopt, std::string(of), growth};
+  };
+  return std::visit(
+      Overloaded{[&](const analysis::ConditionallyStable<Dim>& stable) -> StepTheory {
+                   return {stable.critical_time_step, std::string(of_the_lattice), growth};
+                 },
+                 [&](const analysis::UnconditionallyStable&) -> StepTheory {
+                   return {std::nullopt, std::string(of_the_lattice), growth};
+                 },
+                 [&](const analysis::NeverStable<Dim>&) { return of_frequencies(of_growing_state); },
+                 [&](const analysis::WeaklyUnstable<Dim>&) { return of_frequencies(of_its_frequencies); }},
+      modes->limit());
+}
+
+/// Whether theory has to leave the viscosity away.
+bool has_no_theory_of_viscosity(const Scheme& scheme) {
+  return scheme.viscosity && scheme.viscosity->pairs == ViscousPairs::approaching;
+}
+
+/// Of the lattice of the problem, with the material of the body that needs the smallest step.
+template <int Dim>
+StepTheory updated_theory(const Scene<Dim>& scene) {
+  Problem<Dim> problem = scene.problem;
+  if (has_no_theory_of_viscosity(problem.scheme)) problem.scheme.viscosity.reset();
+  std::vector<StepTheory> theories;
+  for (const auto& material : scene.body.materials) {
+    problem.material = material;
+    theories.push_back(lattice_theory(problem));
+  }
+  const auto step = [](const StepTheory& theory) {
+    return theory.critical_time_step.value_or(std::numeric_limits<double>::infinity());
+  };
+  StepTheory theory = *std::min_element(theories.begin(), theories.end(),
+                                        [&](const auto& left, const auto& right) { return step(left) < step(right); });
+  if (scene.body.site.empty()) theory.of += "; these particles are on none";
+  theory.growth_per_step = [theories](double time_step) {
+    double fastest = 0.0;
+    for (const auto& each : theories) fastest = std::max(fastest, each.growth_per_step(time_step));
+    return fastest;
+  };
+  return theory;
+}
+
+template <int Dim>
+StepTheory step_theory(const Scene<Dim>& scene) {
+  switch (scene.problem.scheme.formulation) {
+    case Formulation::total_lagrangian_linear:
+      return linear_theory(scene);
+    case Formulation::updated_lagrangian:
+      return updated_theory(scene);
+  }
+  return {};
+}
+
+double chosen_time_step(const Case& input, const StepTheory& theory) {
+  if (const auto time_step = input.number("time_step")) {
+    if (input.has("step_fraction")) throw InvalidInput("step_fraction: cannot be given with time_step");
+    return *time_step;
+  }
+  if (!theory.critical_time_step) throw InvalidInput("time_step: missing; there is no critical step to take a part of");
+  return input.required_number("step_fraction") * *theory.critical_time_step;
+}
+
+/// Linear schemes keep the energy below their critical step, whatever moves in them.
+bool has_grown(const SceneSummary& summary, bool can_grow) {
+  return can_grow && summary.kinetic_energy + summary.strain_energy >
+                         energy_that_shows_growth * (std::abs(summary.work) + summary.initial_energy);
+}
+
+Json to_json(const SceneSummary& summary) {
+  Json values{{"time", summary.time},
+              {"steps", summary.steps},
+              {"right_hand_sides", summary.right_hand_sides},
+              {"largest_displacement", summary.largest_displacement},
+              {"largest_velocity", summary.largest_velocity},
+              {"largest_von_mises_stress", summary.largest_von_mises_stress},
+              {"initial_energy", summary.initial_energy},
+              {"kinetic_energy", summary.kinetic_energy},
+              {"strain_energy", summary.strain_energy},
+              {"work", summary.work},
+              {"momentum_drift", number_or_null(summary.momentum_drift)}};
+  if (summary.list_builds) values["list_builds"] = *summary.list_builds;
+  values["lost_particles"] = summary.lost_particles.size();
+  return values;
+}
+
+Json to_json(const NonFiniteValue& failure) {
+  Json values{{"step", failure.step}, {"time", failure.time}, {"particle", failure.particle}, {"field", failure.field}};
+  if (failure.term) values["term"] = *failure.term;
+  return values;
+}
+
+/// Writes what a run shows into the folder of a request; does nothing without one.
+template <int Dim>
+class RunFiles {
+ public:
+  RunFiles(const Body<Dim>& body, io::OutputFolder* folder) : body_(body), folder_(folder) {
+    if (folder_ == nullptr) return;
+    states_.emplace(folder_->assembly("states.h5"), body);
+    folder_->replace_series("snapshot_");
+  }
+
+  void add(const Snapshot<Dim>& snapshot) {
+    if (folder_ == nullptr) return;
+    std::vector<io::ParticleField> fields{io::vector_field<Dim>("displacement", snapshot.displacement),
+                                          io::vector_field<Dim>("velocity", snapshot.velocity),
+                                          io::tensor_field<Dim>("stress", snapshot.stress),
+                                          io::scalar_field("von_mises_stress", snapshot.von_mises_stress)};
+    if (!snapshot.density.empty()) fields.push_back(io::scalar_field("density", snapshot.density));
+    states_->add_state(snapshot.time, fields);
+    if (body_.size() <= largest_picture && drawable<Dim>(body_, snapshot.displacement))
+      folder_->write(fmt::format("snapshot_{:03}.svg", snapshots_), io::render_svg(picture(snapshot)));
+    ++snapshots_;
+  }
+
+  void finish(const SceneRunResult<Dim>& result, const Json& answer) {
+    if (folder_ == nullptr) return;
+    states_->finish();
+    folder_->write("summary.json", io::write(answer, io::Format::json));
+    if (!result.probes.empty()) folder_->write("probes.csv", io::to_csv(probe_table(result)));
+  }
+
+ private:
+  io::ParticleFigure picture(const Snapshot<Dim>& snapshot) const {
+    return {.title = fmt::format("time {:.6g}, step {}", snapshot.time, snapshot.step),
+            .x_label = "x",
+            .y_label = Dim == 1 ? "" : "y",
+            .value_label = "von Mises stress",
+            .radius = particle_radius(body_),
+            .panels = {particle_panel<Dim>("", body_, snapshot.displacement, 1.0, snapshot.von_mises_stress)},
+            .columns = 1};
+  }
+
+  static io::Table probe_table(const SceneRunResult<Dim>& result) {
+    io::Table table{{"time"}, {}};
+    for (const auto& probe : result.probes) {
+      for (const char* quantity : {"displacement", "velocity"})
+        for (int i = 0; i < Dim; ++i) table.header.push_back(fmt::format("{} {} {}", probe.name, quantity, "xyz"[i]));
+      for (int i = 0; i < Dim; ++i)
+        for (int j = i; j < Dim; ++j)
+          table.header.push_back(fmt::format("{} stress {}{}", probe.name, "xyz"[i], "xyz"[j]));
+    }
+    for (std::size_t n = 0; n < result.sample_times.size(); ++n) {
+      std::vector<std::string> row{fmt::format("{}", result.sample_times[n])};
+      for (const auto& probe : result.probes) {
+        for (const auto* quantity : {&probe.displacement, &probe.velocity})
+          for (int i = 0; i < Dim; ++i) row.push_back(fmt::format("{}", (*quantity)[n][i]));
+        for (int i = 0; i < Dim; ++i)
+          for (int j = i; j < Dim; ++j) row.push_back(fmt::format("{}", probe.stress[n](i, j)));
+      }
+      table.rows.push_back(std::move(row));
+    }
+    return table;
+  }
+
+  const Body<Dim>& body_;
+  io::OutputFolder* folder_;
+  std::optional<io::ParticleFile> states_;
+  int snapshots_ = 0;
+};
+
+template <int Dim>
+Json run_answer(const Case& input, const Request& request) {
+  const auto scene = make_scene<Dim>(input);
+  const double duration = input.required_number("duration");
+  const StepTheory theory = step_theory(scene);
+  const double time_step = chosen_time_step(input, theory);
+  RunFiles<Dim> files(scene.body, request.folder);
+  SceneRunOptions<Dim> options{.time_step = time_step,
+                               .duration = duration,
+                               .snapshots = static_cast<long>(*input.number("snapshots")),
+                               .probe_samples = largest_probe_table,
+                               .visit = [&](const Snapshot<Dim>& snapshot) { files.add(snapshot); }};
+  if (request.progress)
+    options.progress = [&](long step, long steps) {
+      request.progress(static_cast<double>(step) / static_cast<double>(steps));
+    };
+  const auto result = run_scene(scene, options);
+  const Scheme& scheme = scene.problem.scheme;
+  Json answer = body_name(input);
+  answer.update({{"particles", scene.body.size()},
+                 {"time_step", time_step},
+                 {"critical_time_step", number_or_null(theory.critical_time_step)},
+                 {"critical_time_step_of", theory.of}});
+  if (has_no_theory_of_viscosity(scheme)) answer["note"] = "theory is that without viscosity";
+  if (theory.growth_per_step) {
+    const double e_foldings = duration / time_step * theory.growth_per_step(time_step);
+    if (e_foldings > 1.0) answer["predicted_growth_e_foldings"] = e_foldings;
+  }
+  answer.update(to_json(result.summary));
+  answer["probes"] = Json::object();
+  for (const auto& probe : result.probes)
+    if (!probe.displacement.empty())
+      answer["probes"][probe.name] = {{"particle", probe.particle},
+                                      {"displacement", components<Dim>(probe.displacement.back())},
+                                      {"velocity", components<Dim>(probe.velocity.back())},
+                                      {"stress", rows<Dim>(probe.stress.back())}};
+  if (result.failure) answer["failure"] = to_json(*result.failure);
+  const bool linear = scheme.formulation == Formulation::total_lagrangian_linear;
+  const bool can_grow = !linear || !theory.critical_time_step || time_step > *theory.critical_time_step;
+  answer["unstable"] = result.failure || has_grown(result.summary, can_grow) || !result.summary.lost_particles.empty();
+  files.finish(result, answer);
+  return answer;
+}
+
+}  // namespace
+
+Json run_answer(const Case& input, const Request& request) {
+  const Case keys = io::with_scene_keys(input);
+  return in_dimension(keys, [&](auto dimension) { return run_answer<dimension()>(keys, request); });
+}
+
+}  // namespace sphstab::study
