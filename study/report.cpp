@@ -18,7 +18,10 @@ constexpr auto makers = std::to_array<ReportMaker>({{"zhang-plate", zhang_plate_
                                                     {"natural-frequencies", natural_frequency_report},
                                                     {"gray-printed-numbers", gray_numbers_report},
                                                     {"swegle", swegle_report},
-                                                    {"tension", tension_report}});
+                                                    {"tension", tension_report},
+                                                    {"gray-plate", gray_plate_report},
+                                                    {"gray-array", gray_array_report},
+                                                    {"softening", softening_report}});
 
 }  // namespace
 

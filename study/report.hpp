@@ -63,4 +63,13 @@ Report swegle_report(const Progress& progress);
 /// Every number, threshold and window of Secs. 4 and 5 of Gray, Monaghan & Swift beside ours, with a verdict.
 Report gray_numbers_report(const Progress& progress);
 
+/// Every row of Tables 1 and 2 of Gray et al., the oscillating plate, with and without artificial stress; Figs. 2-5.
+Report gray_plate_report(const Progress& progress);
+
+/// Compressed periodic arrays of particles, Fig. 1 and conclusion 4 of Gray et al.
+Report gray_array_report(const Progress& progress);
+
+/// What artificial stress takes of the stiffness of a stretched bar and of a bent beam.
+Report softening_report(const Progress& progress);
+
 }  // namespace sphstab::study
