@@ -40,7 +40,7 @@ std::string unstable_row(const Json& answer) {
 std::string describe(const Json& answer) {
   std::string text = fmt::format("Run of {}: {} particles\n", subject(answer), answer["particles"].get<int>());
   text += time_step_row(answer);
-  text += row("which is that of the", answer["critical_time_step_of"].get<std::string>());
+  text += row("critical step of", answer["critical_time_step_of"].get<std::string>());
   if (answer.contains("note")) text += row("note", answer["note"].get<std::string>());
   if (answer.contains("predicted_growth_e_foldings"))
     text += row("WARNING", fmt::format("at this step theory predicts {} e-foldings of the fastest mode",

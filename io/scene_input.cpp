@@ -170,7 +170,8 @@ class SceneReader {
   }
 
   void read_material(const Document& document) {
-    const Table table(document, {"name", "density", "young_modulus", "poisson_ratio", "bulk_modulus", "shear_modulus"});
+    const Table table(document, {"name", "density", "young_modulus", "poisson_ratio", "bulk_modulus", "shear_modulus",
+                                 "sound_speed"});
     const std::string name = table.word("name");
     if (std::find(material_names_.begin(), material_names_.end(), name) != material_names_.end())
       throw InvalidInput(fmt::format("name: '{}' is given twice", name));

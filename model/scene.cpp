@@ -98,7 +98,8 @@ class Builder {
     const int index = static_cast<int>(found - materials_.begin());
     if (found != materials_.end()) return index;
     const Material& taken = description_.materials[material];
-    in_context("material", [&] { taken.lame(description_.problem.plane); });  // refuses ν = 0.5 in plane strain
+    if (description_.problem.scheme.formulation == Formulation::total_lagrangian_linear)
+      in_context("material", [&] { taken.lame(description_.problem.plane); });  // refuses ν = 0.5 in plane strain
     materials_.push_back(material);
     body_.materials.push_back(taken);
     return index;

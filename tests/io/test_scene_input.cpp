@@ -254,6 +254,46 @@ TEST_CASE("the shear of the paper's annulus is in balance", "[fast]") {
   CHECK(total.norm() < rounding * torque_of_q / 2.5e-4);
 }
 
+TEST_CASE("the plate of Gray et al. moves between layers that do not", "[fast]") {
+  const auto scene = scene_named("gray-plate.toml");
+  const auto& body = scene.body;
+  REQUIRE_FALSE(body.site.empty());  // plate and layers are of one lattice
+  int held = 0;
+  Vector<2> low(100.0, 100.0), high(-100.0, -100.0);
+  for (int a = 0; a < body.size(); ++a) {
+    const auto& x = body.position[a];
+    const bool in_layer = std::abs(x[1]) > 1.0;
+    CHECK(body.clamped[a].all() == in_layer);
+    CHECK(body.clamped[a].any() == in_layer);
+    CHECK((!in_layer || x[0] < 0.0));
+    CHECK(scene.velocity[a][0] == 0.0);
+    CHECK((scene.velocity[a][1] > 0.0) == (x[0] > 0.0));
+    held += in_layer;
+    if (in_layer) continue;
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  CHECK(held == 2 * 20 * 4);
+  CHECK((high - low - Vector<2>(21.9, 1.9)).norm() < rounding);
+  const int end = scene.probes.front().particle;
+  CHECK((body.position[end] - Vector<2>(19.95, -0.05)).norm() < rounding);
+  // V_f at the end, half a spacing behind the probe, where the mode is a line of slope 1.377/L.
+  CHECK(scene.velocity[end][1] == Approx(0.01 * (1.0 - 1.377 * 0.05 / 20.0)).epsilon(1e-5));
+}
+
+TEST_CASE("a file with patch is a periodic patch, and a fluid of ul needs no Poisson's ratio", "[fast]") {
+  const std::string fluid = "scheme = \"ul\"\nsound_speed = 1.0\nshear_modulus = 0.0\n";
+  const auto patch = scene_of(fluid + "patch = [5, 4]\n[[probe]]\nname = \"one\"\nposition = [1.2, 0.9]\n");
+  REQUIRE(patch.periodic_cells);
+  CHECK(patch.body.size() == 20);
+  CHECK(patch.probes.front().particle == 6);
+  const auto body = scene_of(fluid + plate + "material = \"oil\"\n[[material]]\nname = \"oil\"\ndensity = 0.9\n" +
+                             "sound_speed = 0.5\nshear_modulus = 0.0\n")
+                        .body;
+  CHECK(body.material_of(0).bulk_modulus() == Approx(0.9 * 0.25).epsilon(rounding));
+  CHECK(body.material_of(0).shear_modulus() == 0.0);
+}
+
 TEST_CASE("every scene that is shipped can be read", "[fast]") {
   const std::pair<const char*, int> sizes[] = {{"zhang-case-1", 400},
                                                {"zhang-case-2", 360},
@@ -263,7 +303,11 @@ TEST_CASE("every scene that is shipped can be read", "[fast]") {
                                                {"two-materials", 320},
                                                {"nearly-incompressible-plate", 400},
                                                {"zhang-table-2-annulus", 180},
-                                               {"zhang-table-2-rectangle", 200}};
+                                               {"zhang-table-2-rectangle", 200},
+                                               {"gray-plate", 4560},
+                                               {"gray-array", 400},
+                                               {"tension-patch", 400},
+                                               {"transverse-patch", 400}};
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(SPHSTAB_SCENES_FOLDER)) {
     ++files;

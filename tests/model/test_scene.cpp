@@ -212,3 +212,25 @@ TEST_CASE("scenes that cannot be are refused with the number of the table", "[fa
   incompressible.materials[0] = Material::from_young_modulus(1.0, 1.0, 0.5);
   CHECK_THROWS_WITH(make_scene(incompressible), "body 1: material: poisson_ratio: 0.5 is not below 0.5 (plane strain)");
 }
+
+TEST_CASE("a description with periodic cells makes a patch that is held, moved and probed like a body", "[fast]") {
+  auto description = scene_of(Box<2>{{0.0, 0.0}, {1.0, 1.0}});
+  description.parts.clear();
+  description.periodic_cells = LatticeIndex<2>(6, 5);
+  description.gravity = {0.0, -2.0};
+  description.clamps = {{Box<2>{{0.0, 0.0}, {0.0, 0.0}}, Directions<2>(true, false)}};
+  description.velocities = {{Box<2>{{0.0, 0.0}, {10.0, 10.0}}, AffineField<2>{.value = {3.0, 4.0}}}};
+  description.probes = {{"middle", {1.1, 1.4}}};
+  const auto scene = make_scene(description);
+  const auto patch = periodic_patch(description.problem, LatticeIndex<2>(6, 5));
+  CHECK(scene.periodic_cells == description.periodic_cells);
+  CHECK(scene.body.position == patch.position);
+  CHECK(scene.body.pairs.neighbour == patch.pairs.neighbour);
+  CHECK(scene.body.load[7] == Vector<2>(0.0, -2.0));
+  CHECK(scene.velocity[0] == Vector<2>(0.0, 4.0));
+  CHECK(scene.velocity[7] == Vector<2>(3.0, 4.0));
+  CHECK(scene.probes.front().particle == 2 + 6 * 3);
+
+  description.periodic_cells = LatticeIndex<2>(4000, 4000);
+  CHECK_THROWS_WITH(make_scene(description), Catch::StartsWith("patch: 16000000 particles are more than"));
+}

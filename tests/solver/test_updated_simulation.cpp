@@ -242,6 +242,32 @@ TEST_CASE("ul: energy and momenta are those of the masses", "[fast]") {
   CHECK(simulation.angular_momentum(state)(1, 0) == -simulation.angular_momentum(state)(0, 1));
 }
 
+TEST_CASE("ul: elastic energy and von Mises stress count the stress out of the plane", "[fast]") {
+  Problem<2> problem = updated_problem<2>();
+  UpdatedSimulation<2> simulation(problem, free_plate(problem, LatticeIndex<2>(3, 2)));
+  auto state = simulation.base_state();
+  const double x = 0.02, a = 0.03, b = -0.01, c = 0.05, z = -a - c;
+  for (auto& density : state.density) density = rho0 * (1.0 + x);
+  for (auto& S : state.deviatoric_stress) S << a, b, b, c;
+  const double P = c0 * c0 * rho0 * x, K = rho0 * c0 * c0, volume = 6.0 * dp * dp / (1.0 + x);
+  const double square = a * a + c * c + z * z + 2.0 * b * b;
+  CHECK(simulation.elastic_energy(state) ==
+        Approx(volume * (P * P / (2.0 * K) + square / (4.0 * mu))).epsilon(rounding));
+  const double von_mises = std::sqrt(0.5 * ((a - c) * (a - c) + (c - z) * (c - z) + (z - a) * (z - a)) + 3.0 * b * b);
+  CHECK(simulation.von_mises_stress(state, 4) == Approx(von_mises).epsilon(rounding));
+
+  problem.material = Material::from_sound_speed(rho0, c0, 0.0);
+  UpdatedSimulation<2> fluid(problem, free_plate(problem, LatticeIndex<2>(3, 2)));
+  CHECK(fluid.elastic_energy(state) == Approx(volume * P * P / (2.0 * K)).epsilon(rounding));
+
+  const Problem<1> bar_problem = updated_problem<1>();
+  UpdatedSimulation<1> bar(bar_problem, free_plate(bar_problem, LatticeIndex<1>(4)));
+  auto bar_state = bar.base_state();
+  for (auto& S : bar_state.deviatoric_stress) S(0, 0) = a;  // and −a/2 across, twice
+  CHECK(bar.elastic_energy(bar_state) == Approx(4.0 * dp * 1.5 * a * a / (4.0 * mu)).epsilon(rounding));
+  CHECK(bar.von_mises_stress(bar_state, 0) == Approx(1.5 * a).epsilon(rounding));
+}
+
 TEST_CASE("ul: held particles stay, are not smoothed, and their density and stress go on", "[fast]") {
   for (const auto integrator : updated_integrators) {
     Problem<2> problem = with_all_terms(updated_problem<2>());
