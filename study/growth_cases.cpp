@@ -173,7 +173,7 @@ WeakGrowthCase weak_growth(Integrator integrator, double phase) {
           seeded_growth<2>(wave, problem, cells, time_step)};
 }
 
-/// A wave that travels along a chain and decays, by theory with two-sided viscosity.
+/// A wave that travels along a chain and decays, by theory with viscosity on approach and separation.
 PatchWave<1> travelling_wave(const Problem<1>& problem, const Vector<1>& wave_vector, double time_step) {
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> modes(
       analysis::amplification_matrix(problem, wave_vector, time_step));
@@ -182,13 +182,15 @@ PatchWave<1> travelling_wave(const Problem<1>& problem, const Vector<1>& wave_ve
   return {wave_vector, modes.eigenvectors().col(travelling), modes.eigenvalues()[travelling]};
 }
 
-DampingCase damping(double velocity) {
+/// Over four periods of a wave of 32 particles. A standing wave begins with its velocities alone.
+DampingCase damping(bool is_standing, double alpha, double velocity) {
   const LatticeIndex<1> cells(32);
-  constexpr double time_step = 0.1;
-  constexpr int steps = 1000;  // some four periods, in which two-sided viscosity takes the wave to a quarter
+  constexpr double time_step = 0.1, periods = 4.0;
   auto problem = problem_of<1>(LatticeKind::chain, KernelFamily::cubic_spline, 1.3, 0.0);
-  problem.scheme.viscosity = Viscosity{.alpha = 0.5, .eta = 0.1};
-  const auto wave = travelling_wave(problem, Vector<1>(2.0 * std::numbers::pi / cells[0]), time_step);
+  problem.scheme.viscosity = Viscosity{.alpha = alpha, .eta = 0.1};
+  auto wave = travelling_wave(problem, Vector<1>(2.0 * std::numbers::pi / cells[0]), time_step);
+  const int steps = static_cast<int>(std::lround(periods * 2.0 * std::numbers::pi / std::arg(wave.eigenvalue)));
+  if (is_standing) wave.shape = Eigen::VectorXcd::Unit(wave.shape.size(), 1);
   const auto decay_rate = [&](ViscousPairs pairs) {
     problem.scheme.viscosity->pairs = pairs;
     PerturbedPatch<1> patch(problem, cells);
@@ -197,8 +199,12 @@ DampingCase damping(double velocity) {
     patch.advance(departure, time_step, steps);
     return std::log(before / patch.amplitude(departure)) / (steps * time_step);
   };
-  return {velocity, decay_rate(ViscousPairs::all), decay_rate(ViscousPairs::approaching),
-          -wave.growth_per_step() / time_step};
+  return {is_standing,
+          alpha,
+          velocity,
+          -wave.growth_per_step() / time_step,
+          decay_rate(ViscousPairs::all),
+          decay_rate(ViscousPairs::approaching)};
 }
 
 template <int Dim>
@@ -257,8 +263,11 @@ std::vector<std::function<BisectionCase()>> bisection_cases() {
 }
 
 std::vector<std::function<DampingCase()>> damping_cases() {
+  constexpr double small = 1e-6, weak = 0.1;
   std::vector<std::function<DampingCase()>> cases;
-  for (const double velocity : {1e-8, 1e-6, 1e-4, 1e-3, 1e-2}) cases.push_back([=] { return damping(velocity); });
+  for (const bool is_standing : {true, false})
+    for (const double alpha : {0.5, weak, 0.02}) cases.push_back([=] { return damping(is_standing, alpha, small); });
+  for (const double velocity : {1e-8, 1e-4, 1e-3, 1e-2}) cases.push_back([=] { return damping(true, weak, velocity); });
   return cases;
 }
 

@@ -49,12 +49,14 @@ struct BisectionCase {
 
 std::vector<std::function<BisectionCase()>> bisection_cases();
 
-/// What viscosity does to a long longitudinal wave of a given velocity: decay rates of its amplitude.
+/// What viscosity does to a long longitudinal wave: decay rates of its amplitude.
 struct DampingCase {
-  double velocity;  ///< amplitude, in c0
-  double all;       ///< measured with two-sided viscosity
-  double one_sided;
-  double theory;  ///< of the two-sided one
+  bool is_standing;  ///< or travelling
+  double alpha;
+  double velocity;   ///< amplitude, in c0
+  double theory;     ///< of viscosity on approach and separation
+  double all_pairs;  ///< measured with that
+  double approaching;
 };
 
 std::vector<std::function<DampingCase()>> damping_cases();

@@ -52,10 +52,10 @@ void check(LatticeKind lattice, const LatticeIndex<Dim>& cells) {
       const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit);
       constexpr double some_step = 0.4;
       const double above = stable ? 1.02 * stable->critical_time_step : some_step;
+      Eigen::MatrixXd J;
       double radius = 0.0;
-      for (const double time_step : {stable ? 0.7 * stable->critical_time_step : 0.5 * some_step, above}) {
-        const Eigen::MatrixXcd J =
-            solver::step_jacobian<Dim>(problem, cells, time_step).template cast<std::complex<double>>();
+      for (const double time_step : {0.5 * above, above}) {
+        J = solver::step_jacobian<Dim>(problem, cells, time_step);
         radius = 0.0;
         for (const auto& k : analysis::patch_wave_vectors<Dim>(problem.lattice, cells)) {
           const auto E = analysis::amplification_matrix<Dim>(problem, k, time_step);
@@ -64,8 +64,8 @@ void check(LatticeKind lattice, const LatticeIndex<Dim>& cells) {
           radius = std::max(radius, analysis::mode_spectrum<Dim>(problem, k, time_step).spectral_radius);
         }
       }
-      const Eigen::EigenSolver<Eigen::MatrixXd> modes(solver::step_jacobian<Dim>(problem, cells, above), false);
       CHECK(radius > 1.0 + 1e-4);
+      const Eigen::EigenSolver<Eigen::MatrixXd> modes(J, false);
       CHECK(modes.eigenvalues().cwiseAbs().maxCoeff() == Approx(radius).epsilon(radius_tolerance));
     }
 }
@@ -85,5 +85,5 @@ TEST_CASE("rung 4: the step of a patch of the running scheme of Gray has the eig
 
 TEST_CASE("rung 4: the step of a patch of the running scheme of Gray has the eigenvalues of its waves, 3D",
           "[ladder]") {
-  check<3>(LatticeKind::bcc, {2, 2, 2});
+  check<3>(LatticeKind::bcc, {3, 2, 2});
 }
