@@ -175,12 +175,17 @@ StepLimit<Dim> paper_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>&
 }
 
 template <int Dim>
-StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
-  std::vector<Vector<Dim>> modes;
+std::vector<Vector<Dim>> patch_wave_vectors(const Lattice<Dim>& lattice, const LatticeIndex<Dim>& cells) {
+  std::vector<Vector<Dim>> wave_vectors;
   for (const auto& n : indices_below<Dim>("patch", cells))
-    modes.push_back(problem.lattice.reciprocal_vectors() *
-                    (n.array().template cast<double>() / cells.array().template cast<double>()).matrix());
-  return limit_over<Dim>(problem, modes);
+    wave_vectors.push_back(lattice.reciprocal_vectors() *
+                           (n.array().template cast<double>() / cells.array().template cast<double>()).matrix());
+  return wave_vectors;
+}
+
+template <int Dim>
+StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
+  return limit_over<Dim>(problem, patch_wave_vectors<Dim>(problem.lattice, cells));
 }
 
 template <int Dim>
@@ -220,6 +225,7 @@ template class BulkModes<1>;
 template StepLimit<1> bulk_limit(const Problem<1>&);
 template StepLimit<1> mode_limit(const Problem<1>&, const Vector<1>&);
 template StepLimit<1> paper_limit(const Problem<1>&, const LatticeIndex<1>&);
+template std::vector<Vector<1>> patch_wave_vectors(const Lattice<1>&, const LatticeIndex<1>&);
 template StepLimit<1> patch_limit(const Problem<1>&, const LatticeIndex<1>&);
 template std::optional<double> published_bound(const Problem<1>&);
 template ZeroEnergyModes<1> zero_energy_modes(const Problem<1>&);
@@ -228,6 +234,7 @@ template class BulkModes<2>;
 template StepLimit<2> bulk_limit(const Problem<2>&);
 template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
 template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
+template std::vector<Vector<2>> patch_wave_vectors(const Lattice<2>&, const LatticeIndex<2>&);
 template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
 template std::optional<double> published_bound(const Problem<2>&);
 template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
@@ -236,6 +243,7 @@ template class BulkModes<3>;
 template StepLimit<3> bulk_limit(const Problem<3>&);
 template StepLimit<3> mode_limit(const Problem<3>&, const Vector<3>&);
 template StepLimit<3> paper_limit(const Problem<3>&, const LatticeIndex<3>&);
+template std::vector<Vector<3>> patch_wave_vectors(const Lattice<3>&, const LatticeIndex<3>&);
 template StepLimit<3> patch_limit(const Problem<3>&, const LatticeIndex<3>&);
 template std::optional<double> published_bound(const Problem<3>&);
 template ZeroEnergyModes<3> zero_energy_modes(const Problem<3>&);

@@ -131,11 +131,13 @@ template <int Dim>
 StepLimit<Dim> mode_limit(const Problem<Dim>& problem, const Vector<Dim>& wave_vector);
 
 /// The limit over Zhang's modes (Eq. 13): k = (mπ/(MΔp), lπ/(LΔp)), m = 1…M, l = 1…L. Throws InvalidInput (`box`)
-/// unless every count is at least 1; so does `patch_limit` (`patch`).
+/// unless every count is at least 1; so do `patch_limit` and `patch_wave_vectors` (`patch`).
 template <int Dim>
 StepLimit<Dim> paper_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& box);
 
-/// The limit over the wave vectors that a periodic patch admits: k·(N_i a_i) = 2πn_i.
+/// The wave vectors that a periodic patch admits, k·(N_i a_i) = 2πn_i, and the limit over them.
+template <int Dim>
+std::vector<Vector<Dim>> patch_wave_vectors(const Lattice<Dim>& lattice, const LatticeIndex<Dim>& cells);
 template <int Dim>
 StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
 
@@ -164,6 +166,7 @@ extern template class BulkModes<1>;
 extern template StepLimit<1> bulk_limit(const Problem<1>&);
 extern template StepLimit<1> mode_limit(const Problem<1>&, const Vector<1>&);
 extern template StepLimit<1> paper_limit(const Problem<1>&, const LatticeIndex<1>&);
+extern template std::vector<Vector<1>> patch_wave_vectors(const Lattice<1>&, const LatticeIndex<1>&);
 extern template StepLimit<1> patch_limit(const Problem<1>&, const LatticeIndex<1>&);
 extern template std::optional<double> published_bound(const Problem<1>&);
 extern template ZeroEnergyModes<1> zero_energy_modes(const Problem<1>&);
@@ -172,6 +175,7 @@ extern template class BulkModes<2>;
 extern template StepLimit<2> bulk_limit(const Problem<2>&);
 extern template StepLimit<2> mode_limit(const Problem<2>&, const Vector<2>&);
 extern template StepLimit<2> paper_limit(const Problem<2>&, const LatticeIndex<2>&);
+extern template std::vector<Vector<2>> patch_wave_vectors(const Lattice<2>&, const LatticeIndex<2>&);
 extern template StepLimit<2> patch_limit(const Problem<2>&, const LatticeIndex<2>&);
 extern template std::optional<double> published_bound(const Problem<2>&);
 extern template ZeroEnergyModes<2> zero_energy_modes(const Problem<2>&);
@@ -180,6 +184,7 @@ extern template class BulkModes<3>;
 extern template StepLimit<3> bulk_limit(const Problem<3>&);
 extern template StepLimit<3> mode_limit(const Problem<3>&, const Vector<3>&);
 extern template StepLimit<3> paper_limit(const Problem<3>&, const LatticeIndex<3>&);
+extern template std::vector<Vector<3>> patch_wave_vectors(const Lattice<3>&, const LatticeIndex<3>&);
 extern template StepLimit<3> patch_limit(const Problem<3>&, const LatticeIndex<3>&);
 extern template std::optional<double> published_bound(const Problem<3>&);
 extern template ZeroEnergyModes<3> zero_energy_modes(const Problem<3>&);

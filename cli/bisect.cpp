@@ -9,22 +9,47 @@ namespace {
 
 ExitStatus status(const Json& answer) { return answer["agrees"].get<bool>() ? done : claim_fails; }
 
-std::string describe(const Json& answer) {
+std::string agreement(const Json& answer) {
+  return row("relative difference",
+             fmt::format("{} (tolerance {:g}): {}", number_or(answer["relative_difference"], "-", 2),
+                         answer["tolerance"].get<double>(), status(answer) == done ? "agrees" : "DOES NOT AGREE"));
+}
+
+std::string effort(const Json& answer) {
+  return row("effort", fmt::format("{} runs, {} steps, horizon {}; growth below {:.2g} per step is not seen",
+                                   answer["runs"].get<int>(), answer["steps"].get<long>(),
+                                   answer["horizon"].get<long>(), answer["smallest_detectable_growth"].get<double>()));
+}
+
+/// Where theory says that every step grows.
+std::string describe_growth(const Json& answer) {
+  const Json& growth = answer["growth"];
+  std::string text = fmt::format("Growth by running the solver on {}, where no step is stable\n", subject(answer));
+  text += row(
+      "every step grows",
+      answer.contains("theory_growth_rate")
+          ? fmt::format("at the rate {:.6g} in continuous time, by theory", answer["theory_growth_rate"].get<double>())
+          : "weakly, by its integrator alone; with steps small enough as slowly as you like");
+  text += row("at the step", fmt::format("{:.6g}", growth["time_step"].get<double>()));
+  text += row("growth per step, run", fmt::format("{:.8g}", growth["measured"].get<double>()));
+  text += row("theory, same body", fmt::format("{:.8g}", growth["theory"].get<double>()));
+  return text + agreement(answer) + effort(answer);
+}
+
+std::string describe_step(const Json& answer) {
   std::string text = fmt::format("Critical time step by running the solver on {}\n", subject(answer));
   text += row("by running", number_or(answer["critical_time_step"], "none found"));
   text += row("bracket", fmt::format("{} (bounded) to {} (growing)", number_or(answer["bracket"][0], "0"),
                                      number_or(answer["bracket"][1], "infinity")));
-  text += row("theory, same body",
-              number_or(answer["theory"], answer.contains("theory_growth_rate") ? "every step grows" : "none"));
-  text += row("relative difference",
-              fmt::format("{} (tolerance {:g}): {}", number_or(answer["relative_difference"], "-", 2),
-                          answer["tolerance"].get<double>(), status(answer) == done ? "agrees" : "DOES NOT AGREE"));
+  text += row("theory, same body", number_or(answer["theory"], "none"));
+  text += agreement(answer);
   text += row("theory, bulk", number_or(answer["bulk_theory"], "none"));
   text += row("body/bulk - 1", number_or(answer["patch_deficit"], "-", 4));
-  return text +
-         row("effort", fmt::format("{} runs, {} steps, horizon {}; growth below {:.2g} per step is not seen",
-                                   answer["runs"].get<int>(), answer["steps"].get<long>(),
-                                   answer["horizon"].get<long>(), answer["smallest_detectable_growth"].get<double>()));
+  return text + effort(answer);
+}
+
+std::string describe(const Json& answer) {
+  return answer.contains("growth") ? describe_growth(answer) : describe_step(answer);
 }
 
 }  // namespace

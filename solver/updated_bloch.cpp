@@ -38,6 +38,15 @@ Eigen::MatrixXcd bloch_matrix(const Body<Dim>& patch, const Vector<Dim>& wave_ve
   return matrix / patch.size();
 }
 
+/// Everything that a step maps, stored rates included.
+template <int Dim>
+UpdatedState<Dim, Dual> base_of(const Problem<Dim>& problem, const UpdatedSimulation<Dim, Dual>& simulation) {
+  UpdatedState<Dim, Dual> base = simulation.base_state();
+  if (problem.integrator == Integrator::predictor_corrector_pec)
+    base.stored = UpdatedRates<Dim, Dual>(base.particles());
+  return base;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -50,12 +59,21 @@ Eigen::VectorXd step_derivative(UpdatedSimulation<Dim, Dual>& simulation, const 
 }
 
 template <int Dim>
+Eigen::MatrixXd step_jacobian(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, double time_step) {
+  UpdatedSimulation<Dim, Dual> simulation(problem, cells);
+  const auto base = base_of(problem, simulation);
+  const int size = numbers_per_particle(base) * base.particles();
+  Eigen::MatrixXd jacobian(size, size);
+  for (int column = 0; column < size; ++column)
+    jacobian.col(column) = step_derivative(simulation, base, Eigen::VectorXd::Unit(size, column), time_step);
+  return jacobian;
+}
+
+template <int Dim>
 Eigen::MatrixXcd bloch_step_matrix(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
                                    const Vector<Dim>& wave_vector, double time_step) {
   UpdatedSimulation<Dim, Dual> simulation(problem, cells);
-  UpdatedState<Dim, Dual> base = simulation.base_state();
-  if (problem.integrator == Integrator::predictor_corrector_pec)
-    base.stored = UpdatedRates<Dim, Dual>(base.particles());
+  const auto base = base_of(problem, simulation);
   return bloch_matrix<Dim>(
       periodic_patch(problem, cells), wave_vector, numbers_per_particle(base),
       [&](const Eigen::VectorXd& direction) { return step_derivative(simulation, base, direction, time_step); });
@@ -81,14 +99,17 @@ Eigen::MatrixXcd bloch_rate_matrix(const Problem<Dim>& problem, const LatticeInd
 
 template Eigen::VectorXd step_derivative(UpdatedSimulation<1, Dual>&, const UpdatedState<1, Dual>&,
                                          const Eigen::VectorXd&, double);
+template Eigen::MatrixXd step_jacobian(const Problem<1>&, const LatticeIndex<1>&, double);
 template Eigen::MatrixXcd bloch_step_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&, double);
 template Eigen::MatrixXcd bloch_rate_matrix(const Problem<1>&, const LatticeIndex<1>&, const Vector<1>&);
 template Eigen::VectorXd step_derivative(UpdatedSimulation<2, Dual>&, const UpdatedState<2, Dual>&,
                                          const Eigen::VectorXd&, double);
+template Eigen::MatrixXd step_jacobian(const Problem<2>&, const LatticeIndex<2>&, double);
 template Eigen::MatrixXcd bloch_step_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&, double);
 template Eigen::MatrixXcd bloch_rate_matrix(const Problem<2>&, const LatticeIndex<2>&, const Vector<2>&);
 template Eigen::VectorXd step_derivative(UpdatedSimulation<3, Dual>&, const UpdatedState<3, Dual>&,
                                          const Eigen::VectorXd&, double);
+template Eigen::MatrixXd step_jacobian(const Problem<3>&, const LatticeIndex<3>&, double);
 template Eigen::MatrixXcd bloch_step_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&, double);
 template Eigen::MatrixXcd bloch_rate_matrix(const Problem<3>&, const LatticeIndex<3>&, const Vector<3>&);
 

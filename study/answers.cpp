@@ -207,7 +207,7 @@ Json bisection_answer(const Case& input, const Request& request) {
                  {"bracket", {found.run.low, std::isfinite(found.run.high) ? Json(found.run.high) : Json()}},
                  {"theory", number_or_null(found.theory.critical_time_step)},
                  {"relative_difference", number_or_null(found.relative_difference())},
-                 {"tolerance", options.tolerance},
+                 {"tolerance", found.growth ? growth_tolerance : options.tolerance},
                  {"agrees", found.agrees(options.tolerance)},
                  {"bulk_theory", number_or_null(found.bulk_theory)},
                  {"patch_deficit", number_or_null(found.patch_deficit())},
@@ -216,6 +216,9 @@ Json bisection_answer(const Case& input, const Request& request) {
                  {"steps", found.run.steps},
                  {"smallest_detectable_growth", found.run.smallest_detectable}});
   if (found.theory.growth_rate) answer["theory_growth_rate"] = *found.theory.growth_rate;
+  if (found.growth)
+    answer["growth"] = {
+        {"time_step", found.growth->time_step}, {"measured", found.growth->measured}, {"theory", found.growth->theory}};
   return answer;
 }
 

@@ -160,14 +160,14 @@ class Search {
       if (!grows(time_step /= scan_factor, horizon)) return;
   }
 
-  /// From a bounded step upwards in strides that lengthen while nothing grows, as far as there are numbers; then
+  /// From a bounded step upwards in strides that lengthen while nothing grows, up to the last step; then
   /// through the last stride in steps of the scan.
   void scan_upwards(long horizon, double time_step) {
     double stride = scan_factor;
     for (int i = 1; !grows(time_step * stride, horizon); ++i) {
       time_step *= stride;
       if (i >= scan_limit) stride *= scan_factor;
-      if (!std::isfinite(time_step * stride)) return;
+      if (time_step * stride > options_.end) return;
     }
     while (time_step * scan_factor * std::sqrt(scan_factor) < high_)
       if (grows(time_step *= scan_factor, horizon)) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "solver/growth.hpp"
@@ -16,6 +17,7 @@ struct BisectionOptions {
   double tolerance = 1e-6;  ///< relative width of the final bracket
   std::optional<long> horizon = std::nullopt;  ///< steps of a run in the final bracket; chosen if absent
   std::function<void(double low, double high)> progress = nullptr;  ///< after each run
+  double end = std::numeric_limits<double>::max();                  ///< last step of the scan, a time
 };
 
 /// What running found. No critical step: with `low` only nothing grew up to there, with `high` only everything grew.
@@ -40,13 +42,12 @@ long horizon_for_growth(double growth_per_step);
 long default_horizon(double tolerance);
 
 /// The critical step by running. Scans upwards from `start` in steps of 20 % to the first exit (the stable set need not
-/// be an interval), in longer strides where fifty of them find none, then closes the bracket around the root of the
-/// growth, fitted to the growing steps nearest to it, halving where no law of growth fits. Both ends of the final
-/// bracket were run. Unless a horizon is given it becomes as long as the growth at a quarter of the tolerance above the
-/// limit needs, up to 256 times the default; where that growth is slower still, the bracket ends where growth can just
-/// be seen. A step that did not grow is no lower end if by the fitted law it may have grown too slowly to be seen: then
-/// the bracket stays wider.
-/// Tested in tests/study/test_bisection.cpp.
+/// be an interval) or the last step, in longer strides where fifty of them find none, then closes the bracket around
+/// the root of the growth, fitted to the growing steps nearest to it, halving where no law of growth fits. Both ends of
+/// the final bracket were run. Unless a horizon is given it becomes as long as the growth at a quarter of the tolerance
+/// above the limit needs, up to 256 times the default; where that growth is slower still, the bracket ends where growth
+/// can just be seen. A step that did not grow is no lower end if by the fitted law it may have grown too slowly to be
+/// seen: then the bracket stays wider. Tested in tests/study/test_bisection.cpp.
 Bisection bisect(const GrowthProbe& probe, const BisectionOptions& options);
 
 }  // namespace sphstab::study

@@ -11,7 +11,10 @@
 #include "analysis/amplification.hpp"
 #include "analysis/critical_step.hpp"
 #include "analysis/spectrum.hpp"
+#include "analysis/updated_lagrangian.hpp"
 #include "study/growth_run.hpp"
+#include "study/patch_wave.hpp"
+#include "study/updated_growth_run.hpp"
 
 namespace sphstab::study {
 namespace {
@@ -19,6 +22,17 @@ namespace {
 /// No kernel or lattice has its limit below 1.4 h/c_p in bulk (theory.md §6), and normalised edges lower it to 0.6 of
 /// that. The limit of damping alone is 2 over its rate.
 constexpr double start_fraction = 0.3;
+/// Where theory says that nothing limits the step of `ul`, it is believed after runs up to this many first steps: at
+/// ever longer ones rounding of the forces would tear the patch.
+constexpr double farthest_over_start = 100.0;
+/// The step at which weak growth shows, in units of 1/ω: half of what the leapfrog bears.
+constexpr double weak_growth_step = 1.0;
+/// A run that measures growth may last this many horizons of five e-foldings, so that the fastest mode is alone.
+constexpr long growth_horizons = 8;
+/// The critical mode is that which grows at this multiple of the limit.
+constexpr double beyond_limit = 1.01;
+
+InvalidInput no_critical_mode() { return InvalidInput("seed: there is no critical mode to start from; use noise"); }
 
 template <int Dim>
 Body<Dim> make_body(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
@@ -32,18 +46,73 @@ std::optional<double> step_of(const analysis::StepLimit<Dim>& limit) {
   return std::nullopt;
 }
 
-/// One run at one step, long enough for growth of that rate: everything grows, or nothing does.
-Bisection run_once(const GrowthProbe& run, double time_step, double growth_rate) {
-  const auto fit = run(time_step, 3 * horizon_for_growth(growth_rate * time_step));
+/// Growth per step of the fastest mode of a patch by theory.
+template <int Dim>
+double patch_growth(const Problem<Dim>& problem, const PeriodicPatch<Dim>& patch, double time_step) {
+  double radius = 0.0;
+  for (const auto& k : analysis::patch_wave_vectors<Dim>(problem.lattice, patch.cells))
+    radius = std::max(radius, analysis::mode_spectrum<Dim>(problem, k, time_step).spectral_radius);
+  return std::log(radius);
+}
+
+/// Runs twice at one step, the second time from the fastest mode of the first.
+StepComparison compare_growth(const GrowthProbe& run, const TheoryLimit& theory, double growth_per_step,
+                              std::optional<long> horizon) {
+  const double time_step = *theory.growing_step;
+  const long steps = horizon.value_or(growth_horizons * horizon_for_growth(growth_per_step));
+  const auto first = run(time_step, steps), fit = run(time_step, steps);
   const bool grows = fit.trend == solver::Trend::growing;
-  return {
-      std::nullopt, grows ? 0.0 : time_step, grows ? time_step : std::numeric_limits<double>::infinity(), fit.steps, 1,
-      fit.steps,    fit.smallest_detectable};
+  return {.run = {.critical_time_step = std::nullopt,
+                  .low = grows ? 0.0 : time_step,
+                  .high = grows ? time_step : std::numeric_limits<double>::infinity(),
+                  .horizon = steps,
+                  .runs = 2,
+                  .steps = first.steps + fit.steps,
+                  .smallest_detectable = fit.smallest_detectable},
+          .theory = theory,
+          .bulk_theory = std::nullopt,
+          .growth = GrowthComparison{time_step, fit.growth_per_step, growth_per_step}};
+}
+
+template <int Dim>
+void require_comparable(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
+  const bool is_body = std::holds_alternative<Body<Dim>>(choice);
+  if (is_body && !problem.displacement_gradient.isZero())
+    throw InvalidInput("displacement_gradient: a body takes none, it would not be in equilibrium");
+  if (problem.scheme.formulation != Formulation::updated_lagrangian) return;
+  if (is_body)
+    throw InvalidInput("scheme: there is no spectrum of a body of ul to compare with; bisect takes a patch of it");
+  const auto& artificial = problem.scheme.artificial_stress;
+  if (!artificial) return;
+  if (artificial->linearisation == ArtificialStressLinearisation::frozen)
+    throw InvalidInput(
+        "artificial_stress_linearisation: a run's artificial stress follows the stress; bisect needs exact");
+  if (analysis::has_one_sided_states(problem))
+    throw InvalidInput(
+        "artificial_stress_epsilon: a principal stress is 0, so that artificial stress switches with every wave; a run "
+        "obeys no linear theory then. Give a stress, or 0");
+}
+
+/// Our own solver, from noise or from the mode that theory calls critical.
+template <int Dim>
+GrowthProbe our_solver(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const Body<Dim>& body,
+                       const TheoryLimit& theory, const RunOptions& options) {
+  if (problem.scheme.formulation != Formulation::updated_lagrangian) {
+    if (options.start_from_mode) return GrowthRun<Dim>(problem, body, critical_mode_displacement(problem, choice));
+    return GrowthRun<Dim>(problem, body, options.noise_seed);
+  }
+  const LatticeIndex<Dim> cells = std::get<PeriodicPatch<Dim>>(choice).cells;
+  if (!options.start_from_mode) return UpdatedGrowthRun<Dim>(problem, cells, options.noise_seed);
+  if (!theory.growing_step && !theory.critical_time_step) throw no_critical_mode();
+  const auto wave = fastest_wave<Dim>(
+      problem, cells, theory.growing_step.value_or(beyond_limit * theory.critical_time_step.value_or(0.0)));
+  return UpdatedGrowthRun<Dim>(problem, cells, departure_of(wave, problem, cells));
 }
 
 }  // namespace
 
 std::optional<double> StepComparison::relative_difference() const {
+  if (growth) return std::abs(growth->measured / growth->theory - 1.0);
   if (!run.critical_time_step || !theory.critical_time_step) return std::nullopt;
   return std::abs(*run.critical_time_step / *theory.critical_time_step - 1.0);
 }
@@ -54,8 +123,9 @@ std::optional<double> StepComparison::patch_deficit() const {
 }
 
 bool StepComparison::agrees(double tolerance) const {
+  if (growth) return run.low == 0.0 && *relative_difference() <= growth_tolerance;
   if (theory.critical_time_step) return relative_difference() && *relative_difference() <= tolerance;
-  return theory.growth_rate ? run.low == 0.0 : !std::isfinite(run.high);
+  return !std::isfinite(run.high);
 }
 
 template <int Dim>
@@ -74,7 +144,9 @@ TheoryLimit theory_limit(const Problem<Dim>& problem, const BodyChoice<Dim>& cho
     return {.critical_time_step = analysis::body_limit(problem, *body).critical_time_step};
   const auto limit = analysis::patch_limit(problem, std::get<PeriodicPatch<Dim>>(choice).cells);
   if (const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit))
-    return {.growth_rate = unstable->growth_rate};
+    return {.growth_rate = unstable->growth_rate, .growing_step = scan_start(problem, {problem.material})};
+  if (const auto* weak = std::get_if<analysis::WeaklyUnstable<Dim>>(&limit))
+    return {.growing_step = weak_growth_step / weak->mode.omega};
   return {.critical_time_step = step_of<Dim>(limit)};
 }
 
@@ -95,8 +167,7 @@ solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const
   const auto limit = analysis::patch_limit(problem, std::get<PeriodicPatch<Dim>>(choice).cells);
   const auto* stable = std::get_if<analysis::ConditionallyStable<Dim>>(&limit);
   const auto* unstable = std::get_if<analysis::NeverStable<Dim>>(&limit);
-  if (stable == nullptr && unstable == nullptr)
-    throw InvalidInput("seed: there is no critical mode to start from; use noise");
+  if (stable == nullptr && unstable == nullptr) throw no_critical_mode();
   const Vector<Dim> k = stable ? stable->mode.wave_vector : unstable->mode.wave_vector;
   const Eigen::EigenSolver<Tensor<Dim>> modes(analysis::dynamical_matrix(problem, k));
   int critical = 0;
@@ -110,22 +181,26 @@ solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const
 template <int Dim>
 StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& choice, const RunOptions& options,
                             const GrowthProbe& probe) {
-  require_total_lagrangian(problem.scheme, "bisect");
-  if (std::holds_alternative<Body<Dim>>(choice) && !problem.displacement_gradient.isZero())
-    throw InvalidInput("displacement_gradient: a body takes none, it would not be in equilibrium");
+  require_comparable(problem, choice);
   const auto body = make_body(problem, choice);
   const auto theory = theory_limit(problem, choice);
-  const BisectionOptions search{.start = scan_start(problem, body.materials),
-                                .tolerance = options.tolerance,
-                                .horizon = options.horizon,
-                                .progress = options.progress};
-  const auto our_solver = [&]() -> GrowthProbe {
-    if (options.start_from_mode) return GrowthRun<Dim>(problem, body, critical_mode_displacement(problem, choice));
-    return GrowthRun<Dim>(problem, body, options.noise_seed);
-  };
-  const GrowthProbe run = probe ? probe : our_solver();
-  const Bisection found = theory.growth_rate ? run_once(run, search.start, *theory.growth_rate) : bisect(run, search);
-  return {found, theory, bulk_step(problem)};
+  const GrowthProbe run = probe ? probe : our_solver(problem, choice, body, theory, options);
+  StepComparison found;
+  if (theory.growing_step) {
+    const double growth = patch_growth(problem, std::get<PeriodicPatch<Dim>>(choice), *theory.growing_step);
+    found = compare_growth(run, theory, growth, options.horizon);
+  } else {
+    BisectionOptions search{.start = scan_start(problem, body.materials),
+                            .tolerance = options.tolerance,
+                            .horizon = options.horizon,
+                            .progress = options.progress};
+    const bool updated = problem.scheme.formulation == Formulation::updated_lagrangian;
+    if (updated && !theory.critical_time_step) search.end = farthest_over_start * search.start;
+    found.run = bisect(run, search);
+    found.theory = theory;
+  }
+  found.bulk_theory = bulk_step(problem);
+  return found;
 }
 
 template double scan_start(const Problem<1>&, const std::vector<Material>&);

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+
+#include "model/problem.hpp"
+
+namespace sphstab::study {
+
+/// A wave of `ul` that a periodic patch admits, by theory: an eigenvector of E(k) at one step.
+template <int Dim>
+struct PatchWave {
+  Vector<Dim> wave_vector;
+  Eigen::VectorXcd shape;  ///< r, v, ρ, S, …: the order of a flat state; of norm 1
+  std::complex<double> eigenvalue;
+
+  /// ln |λ|.
+  double growth_per_step() const { return std::log(std::abs(eigenvalue)); }
+};
+
+/// The one whose |λ| is largest, at one wave vector or of all that the patch admits.
+template <int Dim>
+PatchWave<Dim> fastest_wave(const Problem<Dim>& problem, const Vector<Dim>& wave_vector, double time_step);
+template <int Dim>
+PatchWave<Dim> fastest_wave(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, double time_step);
+
+/// Re(shape e^{ik·x + iπ/4}) on every particle: off the origin, because at a zone boundary a sine would vanish on all.
+template <int Dim>
+Eigen::VectorXd departure_of(const PatchWave<Dim>& wave, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
+
+/// The growth per step of the running solver that starts from this wave: ln of the ratio of its Bloch amplitudes
+/// (projected on the shape) over two e-foldings, but 10 to 20 000 steps, per step. At displacements of 1e-6 Δp and of
+/// half that, extrapolated to none: their error is of first order where neighbours sit on a kink, of second elsewhere.
+/// Tested in tests/ladder/test_updated_growth.cpp.
+template <int Dim>
+double seeded_growth(const PatchWave<Dim>& wave, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
+                     double time_step);
+
+}  // namespace sphstab::study
