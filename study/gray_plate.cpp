@@ -94,22 +94,23 @@ double Plate::time_step() const { return courant_number * spacing() / p_wave_spe
 
 SceneDescription<2> plate_scene(const Plate& plate) {
   const Problem<2> problem = problem_of(plate);
-  const double H = plate.height, layer = clamp_layers * problem.lattice.spacing();
-  const Box<2> above{{-clamp_length, H}, {0.0, H + layer}}, below{{-clamp_length, -layer}, {0.0, 0.0}};
+  const double surface = 0.5 * plate.height, layer = clamp_layers * problem.lattice.spacing();
+  const Box<2> above{{-clamp_length, surface}, {0.0, surface + layer}},
+      below{{-clamp_length, -surface - layer}, {0.0, -surface}};
   SceneDescription<2> scene{.name = "gray-plate", .problem = problem, .materials = {problem.material}, .parts = {}};
   const auto add = [&](const std::string& name, const Box<2>& box) {
     Placement<2> placement;
     placement.shape = box;
     scene.parts.push_back({name, placement});
   };
-  add("plate", {{-clamp_length, 0.0}, {plate_length, H}});
+  add("plate", {{-clamp_length, -surface}, {plate_length, surface}});
   add("layer above", above);
   add("layer below", below);
   for (const Box<2>& layer_region : {above, below})
     scene.clamps.push_back({layer_region, Directions<2>::Constant(true)});
   scene.velocities.push_back(
-      {Box<2>{{0.0, 0.0}, {plate_length, H}}, CantileverMode{0.0, plate_length, plate.tip_velocity}});
-  scene.probes = {{"tip", {plate_length, 0.5 * H}}, {"top", {0.0, H}}, {"bottom", {0.0, 0.0}}};
+      {Box<2>{{0.0, -surface}, {plate_length, surface}}, CantileverMode{0.0, plate_length, plate.tip_velocity}});
+  scene.probes = {{"tip", {plate_length, 0.0}}, {"top", {0.0, surface}}, {"bottom", {0.0, -surface}}};
   return scene;
 }
 
