@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -90,18 +91,31 @@ NeighbourPairs<Dim> find_pairs(const std::vector<Vector<Dim>>& position, double 
   for (int a = 0; a < static_cast<int>(position.size()); ++a) sorted.emplace_back(key_of(cell_of(a)), a);
   std::sort(sorted.begin(), sorted.end());
 
+  // The particles of a cell and of those around it; many particles that follow one another share them.
+  using Entries = std::span<const std::pair<std::int64_t, int>>;
+  const auto entries_of = [&](std::int64_t key) -> Entries {
+    const auto begin = std::lower_bound(sorted.begin(), sorted.end(), std::pair<std::int64_t, int>(key, 0));
+    return {begin, std::find_if(begin, sorted.end(), [&](const auto& entry) { return entry.first != key; })};
+  };
+  std::vector<Entries> around;
+  const auto look_around = [&](const Cell& home) {
+    around.clear();
+    for_each_index<Dim>(LatticeIndex<Dim>::Constant(-1), LatticeIndex<Dim>::Constant(1),
+                        [&](const LatticeIndex<Dim>& n) {
+                          around.push_back(entries_of(key_of(home + n.template cast<std::int64_t>())));
+                        });
+  };
+
   const double limit = support * (1.0 - tie_margin);
   std::vector<int> near;
+  std::int64_t home_key = -1;  // no cell's
   for (int a = 0; a < static_cast<int>(position.size()); ++a) {
     near.clear();
     const Cell home = cell_of(a);
-    for_each_index<Dim>(
-        LatticeIndex<Dim>::Constant(-1), LatticeIndex<Dim>::Constant(1), [&](const LatticeIndex<Dim>& n) {
-          const std::int64_t key = key_of(home + n.template cast<std::int64_t>());
-          for (auto at = std::lower_bound(sorted.begin(), sorted.end(), std::pair<std::int64_t, int>(key, 0));
-               at != sorted.end() && at->first == key; ++at)
-            if (at->second != a && (position[a] - position[at->second]).norm() < limit) near.push_back(at->second);
-        });
+    if (std::exchange(home_key, key_of(home)) != key_of(home)) look_around(home);
+    for (const Entries& entries : around)
+      for (const auto& [key, b] : entries)
+        if (b != a && (position[a] - position[b]).squaredNorm() < limit * limit) near.push_back(b);
     std::sort(near.begin(), near.end());
     for (const int b : near) {
       pairs.neighbour.push_back(b);

@@ -26,7 +26,7 @@ Material material(double shear_modulus) { return Material::from_sound_speed(1.0,
 Problem<2> problem_of(const Plate& plate) {
   Scheme scheme{.formulation = Formulation::updated_lagrangian, .xsph = Xsph{xsph}};
   if (plate.epsilon > 0.0) scheme.artificial_stress = ArtificialStress{.epsilon = plate.epsilon};
-  if (plate.viscosity > 0.0) scheme.viscosity = Viscosity{plate.viscosity, viscosity_eta};
+  if (plate.viscosity > 0.0) scheme.viscosity = Viscosity{plate.viscosity, viscosity_eta, plate.viscous_pairs};
   return {.lattice = Lattice<2>(LatticeKind::square, plate.spacing()),
           .kernel = Kernel<2>(KernelFamily::cubic_spline, h_over_spacing * plate.spacing()),
           .material = material(plate.shear_modulus),

@@ -20,6 +20,7 @@ struct Plate {
   double tip_velocity = 0.01;  ///< V_f
   double epsilon = 0.3;        ///< of the artificial stress; 0: none
   double viscosity = 0.5;      ///< α; 0: none
+  ViscousPairs viscous_pairs = ViscousPairs::all;
   Integrator integrator = Integrator::leapfrog;
   double courant_number = 1.2;  ///< Δt c_p/Δp
 

@@ -305,6 +305,7 @@ TEST_CASE("every scene that is shipped can be read", "[fast]") {
                                                {"zhang-table-2-annulus", 180},
                                                {"zhang-table-2-rectangle", 200},
                                                {"gray-plate", 4560},
+                                               {"gray-thin-plate", 2360},
                                                {"gray-array", 400},
                                                {"tension-patch", 400},
                                                {"transverse-patch", 400}};
