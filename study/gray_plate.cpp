@@ -123,6 +123,10 @@ Problem<2> problem_in_tension(const Plate& plate, double tension) {
   Problem<2> problem = problem_of(plate);
   problem.pressure = -(1.0 + problem.material.poisson_ratio()) * tension / 3.0;
   problem.deviatoric_stress = Vector<2>(tension + problem.pressure, problem.pressure).asDiagonal();
+  if (plate.viscous_pairs == ViscousPairs::approaching) {  // damps small waves half as fast (theory.md §8)
+    problem.scheme.viscosity->alpha *= 0.5;
+    problem.scheme.viscosity->pairs = ViscousPairs::all;
+  }
   return problem;
 }
 
