@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,10 +24,15 @@ struct HardCase {
   std::optional<double> run = {};  ///< measured on the solver, where there is something to run
   double run_tolerance = 1e-6;     ///< relative, of run to theory
 
-  /// theory / expected − 1 and run / theory − 1.
-  double theory_difference() const { return theory / expected - 1.0; }
+  /// |theory − expected| and |run − theory| in terms of the expected value and of theory, where these are not 0.
+  double theory_difference() const;
   std::optional<double> run_difference() const;
   bool holds() const;
+};
+
+struct HardCaseGroup {
+  std::string_view name;
+  std::vector<std::function<HardCase()>> cases;
 };
 
 /// The groups, in the order of the report.

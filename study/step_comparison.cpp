@@ -13,6 +13,7 @@
 #include "analysis/spectrum.hpp"
 #include "analysis/updated_lagrangian.hpp"
 #include "study/growth_run.hpp"
+#include "study/p_wave_speed.hpp"
 #include "study/patch_wave.hpp"
 #include "study/updated_growth_run.hpp"
 
@@ -131,8 +132,7 @@ bool StepComparison::agrees(double tolerance) const {
 template <int Dim>
 double scan_start(const Problem<Dim>& problem, const std::vector<Material>& materials) {
   double fastest = 0.0;
-  for (const Material& material : materials)
-    fastest = std::max(fastest, std::sqrt(material.lame(problem.plane).p_wave_modulus() / material.density()));
+  for (const Material& material : materials) fastest = std::max(fastest, p_wave_speed(problem, material));
   const double of_waves = problem.kernel.smoothing_length() / fastest;
   const auto& damping = problem.scheme.damping;
   return start_fraction * (damping ? std::min(of_waves, 1.0 / damping->rate) : of_waves);
