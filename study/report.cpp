@@ -18,7 +18,8 @@ constexpr auto makers = std::to_array<ReportMaker>({{"zhang-plate", zhang_plate_
                                                     {"natural-frequencies", natural_frequency_report},
                                                     {"gray-printed-numbers", gray_numbers_report},
                                                     {"swegle", swegle_report},
-                                                    {"tension", tension_report}});
+                                                    {"tension", tension_report},
+                                                    {"growth-runs", growth_runs_report}});
 
 }  // namespace
 

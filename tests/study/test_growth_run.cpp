@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
+#include "solver/simulation.hpp"
 #include "study/bisection.hpp"
 #include "study/bodies.hpp"
 
