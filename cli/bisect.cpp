@@ -21,6 +21,12 @@ std::string effort(const Json& answer) {
                                    answer["horizon"].get<long>(), answer["smallest_detectable_growth"].get<double>()));
 }
 
+std::string bracket(const Json& ends) {
+  if (ends[1].is_null()) return fmt::format("nothing grew up to {}", number_or(ends[0], "0"));
+  if (ends[0].get<double>() == 0.0) return fmt::format("everything grew down to {}", number_or(ends[1], ""));
+  return fmt::format("{} (bounded) to {} (growing)", number_or(ends[0], ""), number_or(ends[1], ""));
+}
+
 /// Where theory says that every step grows.
 std::string describe_growth(const Json& answer) {
   const Json& growth = answer["growth"];
@@ -39,8 +45,7 @@ std::string describe_growth(const Json& answer) {
 std::string describe_step(const Json& answer) {
   std::string text = fmt::format("Critical time step by running the solver on {}\n", subject(answer));
   text += row("by running", number_or(answer["critical_time_step"], "none found"));
-  text += row("bracket", fmt::format("{} (bounded) to {} (growing)", number_or(answer["bracket"][0], "0"),
-                                     number_or(answer["bracket"][1], "infinity")));
+  text += row("bracket", bracket(answer["bracket"]));
   text += row("theory, same body", number_or(answer["theory"], "none"));
   text += agreement(answer);
   text += row("theory, bulk", number_or(answer["bulk_theory"], "none"));

@@ -5,7 +5,7 @@
 
 namespace sphstab::solver {
 
-/// How the strain-energy norm of a run develops.
+/// How the amplitude of a run develops.
 enum class Trend {
   bounded,   ///< no growth that this many steps could show
   growing,   ///< exponential growth
@@ -33,9 +33,9 @@ inline constexpr double slope_agreement = 0.2;
 inline constexpr long fewest_amplitudes = 12;
 
 /// Judges ln(amplitude), one value every `stride` steps, the first at step 0: least-squares slopes over the second and
-/// the last third. The amplitude is the square root of the strain energy of the perturbation: rigid motion and
-/// zero-energy modes, which drift linearly in time, have none. Non-finite values must have been cut off. Needs at least
-/// 6 values (assertion). Tested in tests/solver/test_growth.cpp with drift, beating and slow growth.
+/// the last third. The amplitude must be a norm of the perturbation that rigid motion and zero-energy modes, which
+/// drift linearly in time, do not raise (study/perturbation_run.hpp). Non-finite values must have been cut off. Needs
+/// at least 6 values (assertion). Tested in tests/solver/test_growth.cpp with drift, beating and slow growth.
 GrowthFit judge_growth(std::span<const double> log_amplitude, int stride = 1);
 
 }  // namespace sphstab::solver

@@ -13,6 +13,14 @@ namespace sphstab::study {
 
 /// How many runs from noise are averaged.
 inline constexpr int noise_runs = 16;
+/// Of the growth of a run from the theory's wave, per step. What is left after extrapolation is the square of
+/// displacements of 1e-6 Δp, and the rounding of positions, 1e-15, beside them.
+inline constexpr double seeded_tolerance = 1e-8;
+/// Of the mean over the runs from noise: so many standard errors of it, unless the runs agree better among each other
+/// than slower waves, a few 1e-6 a step, let them agree with the fastest; and growth_tolerance of the growth.
+inline constexpr double noise_standard_errors = 3.0, noise_floor = 1e-5;
+/// Growth of the theory below which a state counts as stable: roundings of eigenvalues on the unit circle.
+inline constexpr double no_growth = 1e-7;
 
 /// Growth of one base state at one step, per step.
 struct GrowthCase {
@@ -25,6 +33,10 @@ struct GrowthCase {
   double noise_mean;   ///< of the runs from noise, each the second of two: it starts from the fastest mode of the first
   double noise_error;  ///< standard error of that mean
   int growing;         ///< of those runs
+
+  bool is_stable() const { return theory < no_growth; }
+  /// Within the tolerances above; where theory says stable, no run may grow.
+  bool holds() const;
 };
 
 std::vector<std::function<GrowthCase()>> growth_cases();
@@ -36,6 +48,10 @@ struct WeakGrowthCase {
   double leading_order;
   double theory;
   double seeded;
+
+  /// The run within seeded_tolerance of theory and, to the next order in z = (ωΔt)², of the leading order: 1 − z²/8
+  /// of it, from ln √(1 + z²/4); with stored rates 1 + 2z.
+  bool holds() const;
 };
 
 std::vector<std::function<WeakGrowthCase()>> weak_growth_cases();
@@ -60,5 +76,15 @@ struct DampingCase {
 };
 
 std::vector<std::function<DampingCase()>> damping_cases();
+
+/// A state at exactly zero stress whose artificial stress switches with every wave, so that it obeys neither of its
+/// linearisations, both of which are stable: hexagonal lattice, h = Δp, ε = 0.3.
+struct SwitchCase {
+  double fraction;           ///< Δt over the critical step on the side of compression, the smaller one
+  double smallest, largest;  ///< growth per step, of runs from noise
+  int growing;               ///< of noise_runs
+};
+
+std::vector<std::function<SwitchCase()>> switch_cases();
 
 }  // namespace sphstab::study

@@ -2,6 +2,7 @@
 #include "study/growth_run.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "solver/simulation.hpp"
 #include "study/noise.hpp"
@@ -15,6 +16,9 @@ using solver::State;
 /// Size of the perturbation, √(strain energy / that of a strain of 1): a strain. Six digits above rounding even on
 /// a base state of strain 1, so that noise of the arithmetic stays small beside it.
 constexpr double seed_strain = 1e-10;
+/// A linear scheme may grow for ever; a nonlinear one must stay below it, where the error of the growth is of that
+/// order.
+constexpr double largest_nonlinear_strain = 2e-5;
 /// A displacement s of which SPH sees less strain than this times s/h consists of zero-energy modes.
 constexpr double smallest_strain = 1e-12;
 
@@ -41,7 +45,9 @@ class PerturbedBody : public PerturbedSolver {
   PerturbedBody(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& equilibrium)
       : simulation_(problem, body),
         energy_scale_(energy_of_unit_strain(problem, body)),
-        is_linear_(problem.scheme.momentum_density == MomentumDensity::frozen),
+        largest_amplitude_(problem.scheme.momentum_density == MomentumDensity::frozen
+                               ? std::numeric_limits<double>::infinity()
+                               : largest_nonlinear_strain),
         equilibrium_(equilibrium),
         state_(body.size()) {}
 
@@ -73,7 +79,7 @@ class PerturbedBody : public PerturbedSolver {
   }
 
   double seed_amplitude(double) const override { return seed_strain; }
-  bool is_linear() const override { return is_linear_; }
+  double largest_amplitude() const override { return largest_amplitude_; }
 
  private:
   Eigen::VectorXd flat() const {
@@ -94,7 +100,7 @@ class PerturbedBody : public PerturbedSolver {
 
   solver::Simulation<Dim> simulation_;
   double energy_scale_;  ///< of a strain of 1
-  bool is_linear_;
+  double largest_amplitude_;
   Field<Dim> equilibrium_;
   State<Dim> state_;
 };

@@ -12,9 +12,8 @@ using solver::Trend;
 
 /// E-foldings after which a run has seen enough: the modes have parted.
 constexpr double enough_e_foldings = 40.0;
-/// A nonlinear departure is scaled back when it has grown by the first factor; beyond the second its growth is not that
-/// of a small one any more.
-constexpr double largest_growth = 1e3, largest_trusted_growth = 1e6;
+/// A departure this many times as large as the largest one has left the law of small ones within a stride.
+constexpr double far_beyond = 1e3;
 /// Noise beside the fastest mode of the run before.
 constexpr double noise_beside_mode = 0.1;
 /// Runs are judged for the first time at this part of the horizon, and again whenever they are twice as long; those
@@ -46,7 +45,7 @@ PerturbationRun::Course PerturbationRun::start(double time_step) const {
 }
 
 bool PerturbationRun::run(long end, double time_step, int stride, Course& course) const {
-  const double seed = solver_->seed_amplitude(time_step);
+  const double seed = solver_->seed_amplitude(time_step), largest = solver_->largest_amplitude();
   while (stride * static_cast<long>(course.log_amplitude.size() - 1) < end) {
     solver_->advance(course.departure, time_step, stride);
     const double amplitude = solver_->amplitude(course.departure);
@@ -56,8 +55,8 @@ bool PerturbationRun::run(long end, double time_step, int stride, Course& course
     if (next - course.log_amplitude.front() > enough_e_foldings &&
         std::ssize(course.log_amplitude) > solver::fewest_amplitudes)
       return false;
-    if (solver_->is_linear() || amplitude < largest_growth * seed) continue;
-    if (amplitude > largest_trusted_growth * seed) return false;
+    if (amplitude <= largest) continue;
+    if (amplitude > far_beyond * largest) return false;
     course.departure *= seed / amplitude;
     course.scaled_back += std::log(amplitude / seed);
   }

@@ -25,16 +25,16 @@ class PerturbedSolver {
   /// The amplitude of the departures that runs start with.
   virtual double seed_amplitude(double time_step) const = 0;
 
-  /// Whether departures of any size obey the same law; if not, small ones do.
-  virtual bool is_linear() const = 0;
+  /// The amplitude up to which the growth of a departure is that of a small one; infinite where the solver is linear.
+  virtual double largest_amplitude() const = 0;
 };
 
 /// Runs one solver at one time step after another and measures how the amplitude of a small departure grows.
 ///
 /// A run starts from the seed. After a growing run the fastest mode is known to the solver: the next run starts from it
-/// with a tenth of the seed, which shows growth early without taking anything from the theory. What grows in a
-/// nonlinear solver is scaled back to the seed whenever it is a thousand times as large, its stored rates and its drift
-/// with it, so that a run may see as many e-foldings as it needs.
+/// with a tenth of the seed, which shows growth early without taking anything from the theory. What grows beyond the
+/// largest amplitude is scaled back to that of the seed, the whole departure with it, so that a run may see as many
+/// e-foldings as it needs.
 /// Tested in tests/study/test_growth_run.cpp and test_updated_growth_run.cpp.
 class PerturbationRun {
  public:

@@ -21,7 +21,8 @@ constexpr auto makers = std::to_array<ReportMaker>({{"zhang-plate", zhang_plate_
                                                     {"tension", tension_report},
                                                     {"gray-plate", gray_plate_report},
                                                     {"gray-array", gray_array_report},
-                                                    {"softening", softening_report}});
+                                                    {"softening", softening_report},
+                                                    {"growth-runs", growth_runs_report}});
 
 }  // namespace
 

@@ -60,6 +60,9 @@ Report tension_report(const Progress& progress);
 /// Swegle's criterion on a chain beside what all neighbours do at k = π/Δp and at any k.
 Report swegle_report(const Progress& progress);
 
+/// Growth, critical steps and damping of the running scheme `ul` beside theory: rungs 5 and 6 of the ladder.
+Report growth_runs_report(const Progress& progress);
+
 /// Every number, threshold and window of Secs. 4 and 5 of Gray, Monaghan & Swift beside ours, with a verdict.
 Report gray_numbers_report(const Progress& progress);
 

@@ -10,19 +10,13 @@
 namespace sphstab::study {
 namespace {
 
-constexpr double seed_velocity = 1e-9;  ///< in c_p
+constexpr double seed_velocity = 1e-9, largest_velocity = 1e-6;  ///< in c_p
 
 template <int Dim>
 PerturbationRun noisy_run(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, unsigned noise_seed) {
   if (cells.prod() == 1) throw InvalidInput("patch: one cell moves as a whole; take a larger one");
   const auto patch = std::make_shared<PerturbedPatch<Dim>>(problem, cells);
-  const auto velocity = noise<Dim>(patch->particles(), noise_seed);
-  Vector<Dim> mean = Vector<Dim>::Zero();
-  for (const auto& v : velocity) mean += v / patch->particles();
-  const int size = patch->numbers_per_particle();
-  Eigen::VectorXd departure = Eigen::VectorXd::Zero(size * patch->particles());
-  for (int a = 0; a < patch->particles(); ++a) departure.template segment<Dim>(size * a + Dim) = velocity[a] - mean;
-  return {patch, departure};
+  return {patch, noise_departure(*patch, noise_seed)};
 }
 
 }  // namespace
@@ -71,6 +65,22 @@ double PerturbedPatch<Dim>::seed_amplitude(double time_step) const {
 }
 
 template <int Dim>
+double PerturbedPatch<Dim>::largest_amplitude() const {
+  return largest_velocity;
+}
+
+template <int Dim>
+Eigen::VectorXd noise_departure(const PerturbedPatch<Dim>& patch, unsigned noise_seed) {
+  const auto velocity = noise<Dim>(patch.particles(), noise_seed);
+  Vector<Dim> mean = Vector<Dim>::Zero();
+  for (const auto& v : velocity) mean += v / patch.particles();
+  const int size = patch.numbers_per_particle();
+  Eigen::VectorXd departure = Eigen::VectorXd::Zero(size * patch.particles());
+  for (int a = 0; a < patch.particles(); ++a) departure.template segment<Dim>(size * a + Dim) = velocity[a] - mean;
+  return departure;
+}
+
+template <int Dim>
 UpdatedGrowthRun<Dim>::UpdatedGrowthRun(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
                                         unsigned noise_seed)
     : PerturbationRun(noisy_run(problem, cells, noise_seed)) {}
@@ -81,10 +91,13 @@ UpdatedGrowthRun<Dim>::UpdatedGrowthRun(const Problem<Dim>& problem, const Latti
     : PerturbationRun(std::make_shared<PerturbedPatch<Dim>>(problem, cells), departure) {}
 
 template class PerturbedPatch<1>;
+template Eigen::VectorXd noise_departure(const PerturbedPatch<1>&, unsigned);
 template class UpdatedGrowthRun<1>;
 template class PerturbedPatch<2>;
+template Eigen::VectorXd noise_departure(const PerturbedPatch<2>&, unsigned);
 template class UpdatedGrowthRun<2>;
 template class PerturbedPatch<3>;
+template Eigen::VectorXd noise_departure(const PerturbedPatch<3>&, unsigned);
 template class UpdatedGrowthRun<3>;
 
 }  // namespace sphstab::study

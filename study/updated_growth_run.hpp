@@ -26,10 +26,11 @@ class PerturbedPatch : public PerturbedSolver {
 
   void advance(Eigen::VectorXd& departure, double time_step, int steps) override;
   double amplitude(const Eigen::VectorXd& departure) override;
-  /// Small enough for the growth of a thousandfold of it to be that of a wave without amplitude, to 1e-6; large enough
-  /// for the rounding of positions, 1e-15, to do no more. Where a step is long, so that it moves no farther.
+  /// Large enough for the rounding of positions, 1e-15, to do no more to growth than 1e-6. Where a step is long, so
+  /// that it moves no farther.
   double seed_amplitude(double time_step) const override;
-  bool is_linear() const override { return false; }
+  /// 1e-6: where neighbours sit on a kink of W'', the error of growth is of that order.
+  double largest_amplitude() const override;
 
  private:
   solver::UpdatedSimulation<Dim> simulation_;
@@ -40,6 +41,10 @@ class PerturbedPatch : public PerturbedSolver {
   double of_density_;     ///< c0/ρ̄
   double of_deviatoric_;  ///< 1/(2μρ̄), 0 where μ = 0
 };
+
+/// Noise in the velocities, without momentum, of no particular amplitude.
+template <int Dim>
+Eigen::VectorXd noise_departure(const PerturbedPatch<Dim>& patch, unsigned noise_seed);
 
 /// The growth of a periodic patch by the updated-Lagrangian solver.
 ///

@@ -110,10 +110,9 @@ TEST_CASE("waves that are coupled show frequency and growth", "[fast]") {
   CHECK_THAT(output("dispersion", {"--path-points", "12", "--pressure", "-0.05"}), Contains("omega 1"));
 }
 
-TEST_CASE("ul is not bisected, has no spectrum of a body, and no dispersion with viscosity", "[fast]") {
-  const std::string bisect = "scheme: bisect is for total-Lagrangian schemes, not ul";
-  CHECK(complaint_about(updated("bisect")) == bisect);
-  CHECK(complaint_about(updated("bisect", {"--plate", "9,9"})) == bisect);
+TEST_CASE("ul has no theory of bodies, and no dispersion with viscosity", "[fast]") {
+  CHECK(complaint_about(updated("bisect", {"--plate", "9,9"})) ==
+        "scheme: there is no spectrum of a body of ul to compare with; bisect takes a patch of it");
   CHECK(complaint_about(updated("spectrum", {"--plate", "9,9"})) ==
         "scheme: the spectrum of a body is for total-Lagrangian schemes, not ul");
   CHECK(complaint_about(updated("dispersion", {"--viscosity-alpha", "1", "--wave-vector", "1,0"})) ==

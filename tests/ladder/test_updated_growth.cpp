@@ -14,55 +14,37 @@ using namespace sphstab::study;
 
 namespace {
 
-/// Rung 5, per step. What is left after extrapolation is the square of displacements of 1e-6 Δp and the rounding of
-/// positions, 1e-15, beside them.
-constexpr double seeded_tolerance = 1e-8;
-/// Rung 5, of the mean over 16 runs from noise: three standard errors of it, unless the runs agree better among each
-/// other than the waves that are a little slower let them agree with the fastest; and this part of the growth.
-constexpr double standard_errors = 3.0, slower_waves = 1e-5, noise_part = 5e-3;
 /// Rung 6.
 constexpr double bisection_tolerance = 1e-6;
-/// A state of which theory says less is stable.
-constexpr double no_growth = 1e-7;
+
+/// Growth rate of the transverse wave k = (π/Δp, 0) that artificial stress drives on the square lattice (theory.md §3):
+/// ρ̄ω² = 2κσ (εf − B)_yy, f_yy = −1.3465, B_yy = −0.09695 and w = 0.63754 of the cubic spline at h = Δp, ε = 0.3,
+/// σ = 0.05, ρ̄ = 0.95; with XSPH of 0.5 it is 0.148.
+double rate_across(bool smoothed) {
+  const double kappa = smoothed ? 1.0 - 0.5 * 0.6375384390513321 : 1.0;
+  return std::sqrt(kappa * 0.1 * (0.3 * 1.346460922601237 - 0.09694965902670272) / 0.95);
+}
 
 }  // namespace
 
 TEST_CASE("rung 5: the running scheme of Gray grows as its amplification matrix says, from a wave and from noise",
           "[ladder]") {
-  int stable = 0;
+  int stable = 0, across = 0;
   for (const auto& make : growth_cases()) {
     const auto found = make();
     INFO(found.name << ", " << name_of(found.integrator));
-    CHECK(std::abs(found.seeded - found.theory) < seeded_tolerance);
-    if (!found.has_noise) continue;
-    if (found.theory < no_growth) {
-      ++stable;
-      CHECK(found.growing == 0);
-    } else {
-      CHECK(found.growing == noise_runs);
-      const double difference = std::abs(found.noise_mean - found.theory);
-      CHECK(difference < std::max(standard_errors * found.noise_error, slower_waves));
-      CHECK(difference < noise_part * found.theory);
-    }
-  }
-  CHECK(stable == 5);
-}
-
-TEST_CASE("rung 5: artificial stress drives the transverse wave of the square lattice as theory.md says", "[ladder]") {
-  // ρ̄ω² = 2κσ (ε f − B)_yy at k = (π/Δp, 0), h = Δp, ρ̄ = 0.95: f_yy = −1.3465, B_yy = −0.09695 (cubic spline).
-  const double rate = std::sqrt(0.1 * (0.3 * 1.346460922601237 - 0.09694965902670272) / 0.95);
-  const double smoothed = rate * std::sqrt(1.0 - 0.5 * 0.6375384390513321);
-  CHECK(smoothed == Approx(0.148).margin(5e-4));
-  int checked = 0;
-  for (const auto& make : growth_cases()) {
-    const auto found = make();
+    INFO("theory " << found.theory << ", seeded " << found.seeded - found.theory << ", noise "
+                   << found.noise_mean - found.theory << " ± " << found.noise_error << ", growing " << found.growing);
+    CHECK(found.holds());
+    stable += found.is_stable() ? 1 : 0;
     if (found.has_noise) continue;
-    const bool xsph = found.name.find("XSPH") != std::string::npos;
+    const bool smoothed = found.name.find("XSPH") != std::string::npos;
     // Leapfrog: e^g + e^−g − 2 = r²Δt².
-    CHECK(2.0 * std::sinh(0.5 * found.seeded) / found.time_step == Approx(xsph ? smoothed : rate).epsilon(1e-7));
-    ++checked;
+    CHECK(2.0 * std::sinh(0.5 * found.seeded) / found.time_step == Approx(rate_across(smoothed)).epsilon(1e-7));
+    ++across;
   }
-  CHECK(checked == 2);
+  CHECK(across == 2);
+  CHECK(stable == 5);
 }
 
 TEST_CASE("rung 5: at zero stress the predictor-corrector grows by (ωΔt)⁴/8 a step, with stored rates by twice that",
@@ -70,13 +52,8 @@ TEST_CASE("rung 5: at zero stress the predictor-corrector grows by (ωΔt)⁴/8 
   for (const auto& make : weak_growth_cases()) {
     const auto found = make();
     INFO(name_of(found.integrator) << ", ωΔt = " << found.phase);
-    CHECK(std::abs(found.seeded - found.theory) < seeded_tolerance);
-    const double beyond = found.seeded / found.leading_order - 1.0, z = found.phase * found.phase;
-    // ln √(1 + z²/4) = z²/8 (1 − z²/8 + …); with stored rates the next order is z/… of the first.
-    if (found.integrator == Integrator::predictor_corrector)
-      CHECK(beyond == Approx(-z * z / 8.0).epsilon(z));
-    else
-      CHECK(beyond == Approx(2.0 * z).epsilon(2.0 * z));
+    INFO("leading order " << found.leading_order << ", theory " << found.theory << ", run " << found.seeded);
+    CHECK(found.holds());
   }
 }
 
