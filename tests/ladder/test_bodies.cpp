@@ -34,9 +34,9 @@ Placement<2> rectangle(double from, double to, double height) { return {.shape =
 /// it: no step below grew, none above stayed bounded.
 template <int Dim>
 void check(const SceneDescription<Dim>& description) {
-  const auto [name, problem, body, probes] = make_scene(description);
-  const auto limit = analysis::body_limit(problem, body);
-  const auto found = study::compare_step<Dim>(problem, body, {.tolerance = bisection_tolerance});
+  const auto scene = make_scene(description);
+  const auto limit = analysis::body_limit(scene.problem, scene.body);
+  const auto found = study::compare_step<Dim>(scene.problem, scene.body, {.tolerance = bisection_tolerance});
   REQUIRE(found.run.critical_time_step);
   CHECK(*found.run.critical_time_step == Approx(limit.critical_time_step).epsilon(bisection_tolerance));
   CHECK(found.run.low <= limit.bracket.high);
