@@ -88,7 +88,6 @@ class UpdatedSimulation<Dim, Scalar>::Observed {
   }
 
   void place(const Field<Dim, Scalar>& position) {
-    look_at(UpdatedTerm::drift, position);
     simulation_.place(position);
     look_at_pairs(UpdatedTerm::pair_distance, [&](int, int, int pair) { return simulation_.F_[pair]; });
   }
