@@ -53,3 +53,5 @@ TEST_CASE("the committed Case 2 of Zhang comes out again bit for bit", "[ladder]
 TEST_CASE("the committed printed numbers of Gray come out again bit for bit", "[ladder]") {
   check_comes_out_again("gray-printed-numbers");
 }
+
+TEST_CASE("the committed growth runs come out again bit for bit", "[ladder]") { check_comes_out_again("growth-runs"); }
