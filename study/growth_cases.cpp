@@ -13,6 +13,7 @@
 #include "analysis/amplification.hpp"
 #include "analysis/critical_step.hpp"
 #include "study/patch_wave.hpp"
+#include "study/unit_problem.hpp"
 #include "study/updated_growth_run.hpp"
 
 namespace sphstab::study {
@@ -22,11 +23,11 @@ namespace {
 constexpr double courant_number = 0.25;
 /// Pressures are ± this times ρ0 c0².
 constexpr double stress = 0.05;
-constexpr double shear_modulus = 0.3;
 constexpr double gray_epsilon = 0.3, gray_xsph = 0.5;
 /// Steps of a run from noise: 40 e-foldings, or what a stable state is watched for.
 constexpr double noise_e_foldings = 40.0;
 constexpr long steps_of_the_stable = 2000;
+
 template <int Dim>
 struct Subject {
   std::string name;
@@ -35,30 +36,13 @@ struct Subject {
   std::optional<Vector<Dim>> wave_vector = {};  ///< the one that is meant; the fastest if absent
 };
 
-template <int Dim>
-Problem<Dim> problem_of(LatticeKind lattice, KernelFamily kernel, double h, double pressure,
-                        Integrator integrator = Integrator::leapfrog) {
-  Problem<Dim> problem{.lattice = Lattice<Dim>(lattice, 1.0),
-                       .kernel = Kernel<Dim>(kernel, h),
-                       .material = Material::from_sound_speed(1.0, 1.0, shear_modulus),
-                       .integrator = integrator,
-                       .pressure = pressure};
-  problem.scheme.formulation = Formulation::updated_lagrangian;
-  return problem;
-}
-
-template <int Dim>
-Problem<Dim> with_artificial_stress(Problem<Dim> problem, double epsilon = gray_epsilon) {
-  problem.scheme.artificial_stress = ArtificialStress{.epsilon = epsilon};
-  return problem;
-}
-
 /// A bar stretched along x by 5 %, its sides held, and the stress of that.
 Problem<2> stretched_square() {
   constexpr double strain = 0.05;
-  auto problem = problem_of<2>(LatticeKind::square, KernelFamily::cubic_spline, 1.3, -strain, Integrator::verlet);
+  auto problem = unit_problem<2>(LatticeKind::square, KernelFamily::cubic_spline, 1.3, -strain, Integrator::verlet);
   problem.lattice = problem.lattice.deformed(Tensor<2>{{1.0 + strain, 0.0}, {0.0, 1.0}});
-  problem.deviatoric_stress = 2.0 * shear_modulus * strain * Tensor<2>{{2.0 / 3.0, 0.0}, {0.0, -1.0 / 3.0}};
+  problem.deviatoric_stress =
+      2.0 * problem.material.shear_modulus() * strain * Tensor<2>{{2.0 / 3.0, 0.0}, {0.0, -1.0 / 3.0}};
   return problem;
 }
 
@@ -113,7 +97,7 @@ void add_chains(std::vector<std::function<GrowthCase()>>& cases) {
   const auto add = [&](std::string_view what, KernelFamily kernel, double h, double pressure, Integrator integrator) {
     cases.push_back(growth_case<1>(fmt::format("chain, {}, h = {:g} Δp, {}: {}", name_of(kernel), h,
                                                pressure < 0.0 ? "tension" : "compression", what),
-                                   problem_of<1>(LatticeKind::chain, kernel, h, pressure, integrator), cells));
+                                   unit_problem<1>(LatticeKind::chain, kernel, h, pressure, integrator), cells));
   };
   add("W''(Δp) > 0, clumps", cubic_spline, 1.0, -stress, Integrator::predictor_corrector);
   add("W''(Δp) > 0, stable", cubic_spline, 1.0, stress, Integrator::leapfrog);
@@ -130,7 +114,7 @@ void add_lattices(std::vector<std::function<GrowthCase()>>& cases) {
   constexpr auto spline = KernelFamily::cubic_spline;
   const LatticeIndex<2> cells(8, 8);
   const auto add = [&](LatticeKind lattice, double h, double epsilon, Integrator integrator) {
-    auto problem = problem_of<2>(lattice, spline, h, -stress, integrator);
+    auto problem = unit_problem<2>(lattice, spline, h, -stress, integrator);
     if (epsilon > 0.0) problem = with_artificial_stress(problem, epsilon);
     cases.push_back(growth_case<2>(fmt::format("{}, h = {:g} Δp, tension, ε = {:g}", name_of(lattice), h, epsilon),
                                    problem, cells));
@@ -142,27 +126,29 @@ void add_lattices(std::vector<std::function<GrowthCase()>>& cases) {
   add(staggered, 1.0, gray_epsilon, Integrator::verlet);
   add(square, 1.3, gray_epsilon, Integrator::predictor_corrector_pec);
   const double pi = std::numbers::pi;
-  auto across = with_artificial_stress(problem_of<2>(square, spline, 1.0, -stress));
+  auto across = with_artificial_stress(unit_problem<2>(square, spline, 1.0, -stress), gray_epsilon);
   cases.push_back(growth_case<2>("square, h = 1 Δp, tension, ε = 0.3: k = (π/Δp, 0), across it", across, cells,
                                  Vector<2>(pi, 0.0)));
   across.scheme.xsph = Xsph{gray_xsph};
   cases.push_back(growth_case<2>("square, h = 1 Δp, tension, ε = 0.3, XSPH: k = (π/Δp, 0), across it", across, cells,
                                  Vector<2>(pi, 0.0)));
-  cases.push_back(growth_case<2>("square, h = 1.3 Δp, compression", problem_of<2>(square, spline, 1.3, stress), cells));
-  auto smoothed = with_artificial_stress(problem_of<2>(square, spline, 1.3, -stress, Integrator::predictor_corrector));
+  cases.push_back(
+      growth_case<2>("square, h = 1.3 Δp, compression", unit_problem<2>(square, spline, 1.3, stress), cells));
+  auto smoothed = with_artificial_stress(unit_problem<2>(square, spline, 1.3, -stress, Integrator::predictor_corrector),
+                                         gray_epsilon);
   smoothed.scheme.xsph = Xsph{gray_xsph};
   cases.push_back(growth_case<2>("square, h = 1.3 Δp, tension, ε = 0.3, XSPH", smoothed, cells));
   cases.push_back(growth_case<2>("square stretched by 5 %, h = 1.3 Δp", stretched_square(), cells));
   cases.push_back(growth_case<2>("square stretched by 5 %, h = 1.3 Δp, ε = 0.3",
-                                 with_artificial_stress(stretched_square()), cells));
-  cases.push_back(growth_case<3>("fcc, h = 1.3 Δp, tension", problem_of<3>(LatticeKind::fcc, spline, 1.3, -stress),
+                                 with_artificial_stress(stretched_square(), gray_epsilon), cells));
+  cases.push_back(growth_case<3>("fcc, h = 1.3 Δp, tension", unit_problem<3>(LatticeKind::fcc, spline, 1.3, -stress),
                                  LatticeIndex<3>(4, 4, 4)));
 }
 
 /// The growth of the mode of the largest ω at zero stress.
 WeakGrowthCase weak_growth(Integrator integrator, double phase) {
   const LatticeIndex<2> cells(8, 8);
-  const auto problem = problem_of<2>(LatticeKind::square, KernelFamily::cubic_spline, 1.3, 0.0, integrator);
+  const auto problem = unit_problem<2>(LatticeKind::square, KernelFamily::cubic_spline, 1.3, 0.0, integrator);
   const auto weak = std::get<analysis::WeaklyUnstable<2>>(analysis::patch_limit(problem, cells));
   const double time_step = phase / weak.mode.omega;
   const auto wave = fastest_wave<2>(problem, cells, time_step);
@@ -184,7 +170,7 @@ PatchWave<1> travelling_wave(const Problem<1>& problem, const Vector<1>& wave_ve
 DampingCase damping(bool is_standing, double alpha, double velocity) {
   const LatticeIndex<1> cells(32);
   constexpr double time_step = 0.1, periods = 4.0;
-  auto problem = problem_of<1>(LatticeKind::chain, KernelFamily::cubic_spline, 1.3, 0.0);
+  auto problem = unit_problem<1>(LatticeKind::chain, KernelFamily::cubic_spline, 1.3, 0.0);
   problem.scheme.viscosity = Viscosity{.alpha = alpha, .eta = 0.1};
   auto wave = travelling_wave(problem, Vector<1>(2.0 * std::numbers::pi / cells[0]), time_step);
   const int steps = static_cast<int>(std::lround(periods * 2.0 * std::numbers::pi / std::arg(wave.eigenvalue)));
@@ -215,8 +201,8 @@ std::function<BisectionCase()> bisection_case(std::string name, const Problem<Di
 
 SwitchCase at_the_switch(double fraction) {
   const LatticeIndex<2> cells(6, 6);
-  const auto problem =
-      with_artificial_stress(problem_of<2>(LatticeKind::hexagonal, KernelFamily::cubic_spline, 1.0, 0.0));
+  const auto problem = with_artificial_stress(
+      unit_problem<2>(LatticeKind::hexagonal, KernelFamily::cubic_spline, 1.0, 0.0), gray_epsilon);
   const double time_step = fraction * *theory_limit<2>(problem, PeriodicPatch<2>{cells}).critical_time_step;
   SwitchCase result{fraction, std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest(), 0};
   for (unsigned noise_seed = 1; noise_seed <= noise_runs; ++noise_seed) {
@@ -266,25 +252,27 @@ std::vector<std::function<BisectionCase()>> bisection_cases() {
   for (const auto integrator : {Integrator::leapfrog, Integrator::verlet}) {
     for (const auto lattice : lattices_of(2))
       cases.push_back(bisection_case<2>(fmt::format("{}, h = 1.3 Δp, no stress", name_of(lattice)),
-                                        problem_of<2>(lattice, spline, 1.3, 0.0, integrator), {8, 8}));
+                                        unit_problem<2>(lattice, spline, 1.3, 0.0, integrator), {8, 8}));
     cases.push_back(bisection_case<1>("chain, h = 1 Δp, compression",
-                                      problem_of<1>(LatticeKind::chain, spline, 1.0, stress, integrator),
+                                      unit_problem<1>(LatticeKind::chain, spline, 1.0, stress, integrator),
                                       LatticeIndex<1>(24)));
     cases.push_back(bisection_case<2>("hexagonal, h = 1 Δp, compression",
-                                      problem_of<2>(LatticeKind::hexagonal, spline, 1.0, stress, integrator), {8, 8}));
-    const auto cured = with_artificial_stress(problem_of<2>(LatticeKind::hexagonal, spline, 1.0, -stress, integrator));
+                                      unit_problem<2>(LatticeKind::hexagonal, spline, 1.0, stress, integrator),
+                                      {8, 8}));
+    const auto cured =
+        with_artificial_stress(unit_problem<2>(LatticeKind::hexagonal, spline, 1.0, -stress, integrator), gray_epsilon);
     cases.push_back(bisection_case<2>("hexagonal, h = 1 Δp, tension, ε = 0.3", cured, {8, 8}));
     auto smoothed = cured;
     smoothed.scheme.xsph = Xsph{gray_xsph};
     cases.push_back(bisection_case<2>("hexagonal, h = 1 Δp, tension, ε = 0.3, XSPH", smoothed, {8, 8}));
     cases.push_back(bisection_case<3>("fcc, h = 1.3 Δp, no stress",
-                                      problem_of<3>(LatticeKind::fcc, spline, 1.3, 0.0, integrator), {4, 4, 4}));
+                                      unit_problem<3>(LatticeKind::fcc, spline, 1.3, 0.0, integrator), {4, 4, 4}));
   }
   for (const auto& [integrator, name] : Names<Integrator>::table) {
-    auto chain = problem_of<1>(LatticeKind::chain, spline, 1.3, 0.0, integrator);
+    auto chain = unit_problem<1>(LatticeKind::chain, spline, 1.3, 0.0, integrator);
     chain.scheme.viscosity = Viscosity{.alpha = 0.5, .eta = 0.1};
     cases.push_back(bisection_case<1>("chain, h = 1.3 Δp, no stress, α = 0.5", chain, LatticeIndex<1>(16)));
-    auto square = problem_of<2>(LatticeKind::square, spline, 1.3, 0.0, integrator);
+    auto square = unit_problem<2>(LatticeKind::square, spline, 1.3, 0.0, integrator);
     square.scheme.viscosity = chain.scheme.viscosity;
     cases.push_back(bisection_case<2>("square, h = 1.3 Δp, no stress, α = 0.5", square, {3, 3}));
   }

@@ -10,6 +10,7 @@
 #include "study/parallel.hpp"
 #include "study/patch_wave.hpp"
 #include "study/report.hpp"
+#include "study/unit_problem.hpp"
 #include "study/updated_growth_run.hpp"
 
 namespace sphstab::study {
@@ -154,13 +155,8 @@ void add_course(std::string name, const Problem<2>& problem, std::vector<io::Cur
 /// 60 Δp/c0 in steps of 0.2.
 io::LineFigure courses() {
   const auto problem = [](LatticeKind lattice, double epsilon) {
-    Problem<2> tension{.lattice = Lattice<2>(lattice, 1.0),
-                       .kernel = Kernel<2>(KernelFamily::cubic_spline, 1.0),
-                       .material = Material::from_sound_speed(1.0, 1.0, 0.3),
-                       .pressure = -0.05};
-    tension.scheme.formulation = Formulation::updated_lagrangian;
-    if (epsilon > 0.0) tension.scheme.artificial_stress = ArtificialStress{.epsilon = epsilon};
-    return tension;
+    const auto tension = unit_problem<2>(lattice, KernelFamily::cubic_spline, 1.0, -0.05);
+    return epsilon > 0.0 ? with_artificial_stress(tension, epsilon) : tension;
   };
   std::vector<io::Curve> curves;
   for (const double epsilon : {0.0, 0.3})

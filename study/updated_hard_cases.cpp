@@ -11,6 +11,7 @@
 #include "analysis/critical_step.hpp"
 #include "study/patch_wave.hpp"
 #include "study/step_comparison.hpp"
+#include "study/unit_problem.hpp"
 #include "study/updated_growth_run.hpp"
 
 namespace sphstab::study {
@@ -18,7 +19,7 @@ namespace {
 
 using MakeCase = std::function<HardCase()>;
 
-constexpr double shear_modulus = 0.3, stress = 0.05;
+constexpr double stress = 0.05;
 /// Sums of a few dozen terms and an eigenvalue of two rows.
 constexpr double rounding = 1e-12;
 /// Growth is measured at this growth a step, from noise whose slower waves leave so much of it.
@@ -29,22 +30,6 @@ constexpr double some_step = 0.3;
 constexpr long stable_steps = 2000;
 
 constexpr std::string_view zero_energy_form = "2κσ eig(εf − B)/ρ̄ where A = 0, sums written out";
-
-template <int Dim>
-Problem<Dim> problem_of(LatticeKind lattice, KernelFamily kernel, double h, double pressure) {
-  Problem<Dim> problem{.lattice = Lattice<Dim>(lattice, 1.0),
-                       .kernel = Kernel<Dim>(kernel, h),
-                       .material = Material::from_sound_speed(1.0, 1.0, shear_modulus),
-                       .pressure = pressure};
-  problem.scheme.formulation = Formulation::updated_lagrangian;
-  return problem;
-}
-
-template <int Dim>
-Problem<Dim> with_artificial_stress(Problem<Dim> problem, double epsilon) {
-  problem.scheme.artificial_stress = ArtificialStress{.epsilon = epsilon};
-  return problem;
-}
 
 /// Gray's lattice sums, neighbour by neighbour; f by Z = W^{n+1}/((n+1) W(Δp)ⁿ), φ∇W = ∇Z.
 template <int Dim>
@@ -160,10 +145,10 @@ std::vector<MakeCase> marginal_states() {
     for (const double pressure : {-stress, stress})
       cases.push_back(growth_case<1>(
           fmt::format("{}, h = {:g} Δp, {}", name_of(kernel), h, pressure < 0.0 ? "tension" : "compression"),
-          problem_of<1>(LatticeKind::chain, kernel, h, pressure), two_cells, reason, 0.0));
+          unit_problem<1>(LatticeKind::chain, kernel, h, pressure), two_cells, reason, 0.0));
   for (const double off : {-1e-3, 1e-3})
     for (const double pressure : {-stress, stress}) {
-      const auto problem = problem_of<1>(LatticeKind::chain, KernelFamily::wendland_c2, 1.5 * (1.0 + off), pressure);
+      const auto problem = unit_problem<1>(LatticeKind::chain, KernelFamily::wendland_c2, 1.5 * (1.0 + off), pressure);
       // W'' is a thousandth of its size there.
       cases.push_back(growth_case<1>(
           fmt::format("wendland-c2, h = 1.5 Δp {:+g}, {}", 1.5 * off, pressure < 0.0 ? "tension" : "compression"),
@@ -176,16 +161,16 @@ std::vector<MakeCase> isotropic_stress() {
   constexpr auto spline = KernelFamily::cubic_spline;
   std::vector<MakeCase> cases;
   cases.push_back(zero_energy_case<2>(
-      "square, tension, ε = 0.3", with_artificial_stress(problem_of<2>(LatticeKind::square, spline, 1.0, -stress), 0.3),
-      {2, 2}));
+      "square, tension, ε = 0.3",
+      with_artificial_stress(unit_problem<2>(LatticeKind::square, spline, 1.0, -stress), 0.3), {2, 2}));
   cases.push_back(zero_energy_case<2>(
       "hexagonal, tension, ε = 0.05",
-      with_artificial_stress(problem_of<2>(LatticeKind::hexagonal, spline, 1.0, -stress), 0.05), {2, 2}));
+      with_artificial_stress(unit_problem<2>(LatticeKind::hexagonal, spline, 1.0, -stress), 0.05), {2, 2}));
   cases.push_back(
-      zero_energy_case<3>("cubic, tension", problem_of<3>(LatticeKind::cubic, spline, 1.0, -stress), {2, 2, 2}));
+      zero_energy_case<3>("cubic, tension", unit_problem<3>(LatticeKind::cubic, spline, 1.0, -stress), {2, 2, 2}));
   // Where principal stresses are equal, so are the slopes of their positive parts.
   const LatticeIndex<2> cells(4, 4);
-  const auto hexagonal = with_artificial_stress(problem_of<2>(LatticeKind::hexagonal, spline, 1.0, -stress), 0.3);
+  const auto hexagonal = with_artificial_stress(unit_problem<2>(LatticeKind::hexagonal, spline, 1.0, -stress), 0.3);
   constexpr double part = 1e-9;
   auto parted = hexagonal;
   parted.deviatoric_stress = Tensor<2>{{part, 0.5 * part}, {0.5 * part, -part}};
@@ -201,7 +186,7 @@ std::vector<MakeCase> sign_switch() {
   std::vector<MakeCase> cases;
   for (const auto side : {ZeroStressSide::compression, ZeroStressSide::tension}) {
     auto at_zero =
-        with_artificial_stress(problem_of<2>(LatticeKind::hexagonal, KernelFamily::cubic_spline, 1.0, 0.0), 0.3);
+        with_artificial_stress(unit_problem<2>(LatticeKind::hexagonal, KernelFamily::cubic_spline, 1.0, 0.0), 0.3);
     at_zero.scheme.artificial_stress->zero_side = side;
     auto beside = at_zero;
     beside.pressure = side == ZeroStressSide::compression ? hair : -hair;
@@ -231,7 +216,7 @@ Tensor<2> dynamical_matrix(const Problem<2>& problem, const Vector<2>& k) {
     const Vector<2> X = Vector<2>::Unit(column);
     const Tensor<2> spin = 0.5 * (X * A.transpose() - A * X.transpose());
     M.col(column) += A * A.dot(X) + 2.0 / density * sigma * A * A.dot(X) +
-                     shear_modulus / density * (A.squaredNorm() * X + A * A.dot(X) / 3.0) +
+                     problem.material.shear_modulus() / density * (A.squaredNorm() * X + A * A.dot(X) / 3.0) +
                      (spin * S - S * spin) * A / density;
   }
   return M;
@@ -256,12 +241,12 @@ MakeCase flutter_case(std::string name, const Problem<2>& problem, const Lattice
 std::vector<MakeCase> flutter() {
   std::vector<MakeCase> cases;
   auto staggered =
-      with_artificial_stress(problem_of<2>(LatticeKind::staggered, KernelFamily::cubic_spline, 1.2, -stress), 0.5);
+      with_artificial_stress(unit_problem<2>(LatticeKind::staggered, KernelFamily::cubic_spline, 1.2, -stress), 0.5);
   staggered.scheme.xsph = Xsph{0.5};
   // Two digits are known of it; the patch admits its wave vector (0.4, 17/15) π.
   cases.push_back(flutter_case("isotropic tension, staggered, h = 1.2 Δp, ε = 0.5, XSPH", staggered, {5, 3},
                                "Jacobian of another implementation", 0.0064, 1e-2));
-  auto square = problem_of<2>(LatticeKind::square, KernelFamily::cubic_spline, 1.0, 0.09);
+  auto square = unit_problem<2>(LatticeKind::square, KernelFamily::cubic_spline, 1.0, 0.09);
   square.deviatoric_stress = Tensor<2>{{-0.05, -0.08}, {-0.08, 0.05}};
   const Vector<2> k = 2.0 * std::numbers::pi * Vector<2>(0.2, 0.6);
   // The step of 0.1 makes the rate (1 + |ω|²Δt²/24 …) times itself.
@@ -274,7 +259,7 @@ std::vector<MakeCase> flutter() {
 std::vector<MakeCase> inverted_smoothing() {
   std::vector<MakeCase> cases;
   for (const double pressure : {-stress, stress}) {
-    auto problem = problem_of<1>(LatticeKind::chain, KernelFamily::cubic_spline, 1.0, pressure);
+    auto problem = unit_problem<1>(LatticeKind::chain, KernelFamily::cubic_spline, 1.0, pressure);
     problem.scheme.xsph = Xsph{3.0};
     const std::string name = fmt::format("XSPH 3, chain, {}", pressure < 0.0 ? "tension" : "compression");
     if (pressure > 0.0) {
@@ -293,7 +278,7 @@ std::vector<MakeCase> driven_by_artificial_stress() {
   std::vector<MakeCase> cases;
   const LatticeIndex<2> along_x(2, 1);
   auto square =
-      with_artificial_stress(problem_of<2>(LatticeKind::square, KernelFamily::cubic_spline, 1.0, -stress), 0.3);
+      with_artificial_stress(unit_problem<2>(LatticeKind::square, KernelFamily::cubic_spline, 1.0, -stress), 0.3);
   cases.push_back(zero_energy_case<2>("square, k = (π/Δp, 0), ε = 0.3", square, along_x));
   square.scheme.xsph = Xsph{0.5};
   cases.push_back(zero_energy_case<2>("square, k = (π/Δp, 0), ε = 0.3, XSPH", square, along_x));

@@ -57,3 +57,5 @@ TEST_CASE("the committed printed numbers of Gray come out again bit for bit", "[
 TEST_CASE("the committed arrays of Gray come out again bit for bit", "[ladder]") {
   check_comes_out_again("gray-array");
 }
+
+TEST_CASE("the committed growth runs come out again bit for bit", "[ladder]") { check_comes_out_again("growth-runs"); }
