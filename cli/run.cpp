@@ -32,7 +32,7 @@ std::string unstable_row(const Json& answer) {
                                                     : lost);
   }
   if (const long lost = answer["lost_particles"].get<long>(); lost > 0)
-    return row("UNSTABLE", fmt::format("{} particles have no neighbour any more", lost));
+    return row("UNSTABLE", fmt::format("particles that have lost all their neighbours: {}", lost));
   if (answer["unstable"].get<bool>())
     return row("UNSTABLE", "the energy is more than a thousand times what the start and the loads gave");
   return "";

@@ -174,7 +174,7 @@ TEST_CASE("a particle that leaves all others ends a run of ul with status 3", "[
                        "velocity = [50.0, 40.0]\n");
   const auto outcome = scene({"--duration", "1", "--time-step", "0.01"});
   CHECK(outcome.status == 3);
-  CHECK_THAT(outcome.out, Contains("UNSTABLE             1 particles have no neighbour any more"));
+  CHECK_THAT(outcome.out, Contains("UNSTABLE             particles that have lost all their neighbours: 1"));
 }
 
 TEST_CASE("a periodic patch of tl-linear runs at the step of its own wave vectors", "[fast]") {
