@@ -23,15 +23,16 @@ std::string time_step_row(const Json& answer) {
 std::string unstable_row(const Json& answer) {
   if (answer.contains("failure")) {
     const Json& failure = answer["failure"];
+    const auto field = failure["field"].get<std::string>();
     const std::string lost =
-        fmt::format("the {} of particle {} is no number at step {}", failure["field"].get<std::string>(),
-                    failure["particle"].get<int>(), failure["step"].get<long>());
+        fmt::format("the {} of particle {} is no {}number at step {}", field, failure["particle"].get<int>(),
+                    field == "density" ? "positive " : "", failure["step"].get<long>());
     return row("UNSTABLE", failure.contains("term") ? fmt::format("{}; the first term to break: {}", lost,
                                                                   failure["term"].get<std::string>())
                                                     : lost);
   }
   if (const long lost = answer["lost_particles"].get<long>(); lost > 0)
-    return row("UNSTABLE", fmt::format("{} particles have no neighbour any more", lost));
+    return row("UNSTABLE", fmt::format("particles that have lost all their neighbours: {}", lost));
   if (answer["unstable"].get<bool>())
     return row("UNSTABLE", "the energy is more than a thousand times what the start and the loads gave");
   return "";

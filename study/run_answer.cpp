@@ -216,6 +216,7 @@ class RunFiles {
 
 template <int Dim>
 Json run_answer(const Case& input, const Request& request) {
+  if (!names_body(input) && !input.has("patch")) throw InvalidInput("scene: missing (or plate or patch)");
   const auto scene = make_scene<Dim>(input);
   const double duration = input.required_number("duration");
   const StepTheory theory = step_theory(scene);
