@@ -50,7 +50,10 @@ bool PerturbationRun::run(long end, double time_step, int stride, Course& course
     solver_->advance(course.departure, time_step, stride);
     const double amplitude = solver_->amplitude(course.departure);
     const double next = std::log(amplitude) + course.scaled_back;
-    if (!std::isfinite(next)) return false;
+    if (!std::isfinite(next)) {  // of what is not linear it is known at least that it is small no more
+      if (std::isfinite(largest)) course.log_amplitude.push_back(std::log(far_beyond * largest) + course.scaled_back);
+      return false;
+    }
     course.log_amplitude.push_back(next);
     if (next - course.log_amplitude.front() > enough_e_foldings &&
         std::ssize(course.log_amplitude) > solver::fewest_amplitudes)

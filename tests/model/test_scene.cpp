@@ -234,3 +234,32 @@ TEST_CASE("a description with periodic cells makes a patch that is held, moved a
   description.periodic_cells = LatticeIndex<2>(4000, 4000);
   CHECK_THROWS_WITH(make_scene(description), Catch::StartsWith("patch: 16000000 particles are more than"));
 }
+
+TEST_CASE("a cantilever starts in its first mode: flat at the root, free at the tip, bent by its own inertia between",
+          "[fast]") {
+  // 200 columns of particles: the first at half a spacing, d = 1/200 of the length apart.
+  auto description = scene_of(Box<2>{{0.0, 0.0}, {100.0, 1.0}});
+  description.velocities = {{Box<2>{{0.0, 0.0}, {100.0, 1.0}}, CantileverMode{0.0, 100.0, 0.5}}};
+  const auto velocity = make_scene(description).velocity;
+  constexpr int columns = 200;
+  constexpr double d = 1.0 / columns;
+  std::vector<double> Y;
+  for (int i = 0; i < columns; ++i) {
+    Y.push_back(velocity[i][1] / 0.5);
+    CHECK(velocity[i][0] == 0.0);
+    CHECK(velocity[columns + i] == velocity[i]);  // the row above
+  }
+  // Y = ½ Y''(0) x² + O(x³) near the root, 1 + Y'(1) (x − 1) near the tip.
+  constexpr double second_order = 100.0 * d * d;
+  CHECK(Y[1] / Y[0] == Approx(9.0).epsilon(2.0 * d));
+  CHECK(1.5 * Y[columns - 1] - 0.5 * Y[columns - 2] == Approx(1.0).epsilon(second_order));
+  // Y'''' = (kL)⁴ Y by differences over five columns: to (5d)²/6 (kL)⁴ max |Y''|.
+  constexpr int stride = 5;
+  constexpr double span = stride * d, truncation = 12.4 / 6.0 * 7.1 * span * span;
+  const auto bending = [&](int i) { return (Y[i - stride] - 2.0 * Y[i] + Y[i + stride]) / (span * span); };
+  CHECK(std::abs(bending(columns - 1 - stride)) < truncation);
+  for (int i = 2 * stride; i < columns - 2 * stride; i += 7) {
+    const double fourth = (bending(i - stride) - 2.0 * bending(i) + bending(i + stride)) / (span * span);
+    CHECK(fourth == Approx(std::pow(1.8751040687, 4) * Y[i]).epsilon(0.0).margin(truncation));
+  }
+}
