@@ -110,7 +110,9 @@ const Key table[] = {
      any_number, upper_bound_words},
 
     {"duration", number, run, "", "time that is simulated", positive},
-    {"step_fraction", number, run, "0.9", "time step over the critical one of the scene, instead of time_step",
+    {"step_fraction", number, run, "0.9",
+     "time step over the critical one of the scene, instead of time_step; by default less where an integrator grows at "
+     "every step",
      positive},
     {"initial_noise", number, run, "0",
      "random velocities at the start, of every component uniform within this many p-wave speeds", not_negative},

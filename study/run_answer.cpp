@@ -33,6 +33,7 @@ struct StepTheory {
   std::string of;                            ///< what it is the critical step of
   /// ln of the spectral radius of the fastest mode, growth per step; absent: nothing is predicted.
   std::function<double(double time_step)> growth_per_step = nullptr;
+  bool grows_by_integrator = false;  ///< whose shorter steps grow more slowly in time
 };
 
 template <int Dim>
@@ -51,9 +52,10 @@ template <int Dim>
 StepTheory lattice_theory(const Problem<Dim>& problem) {
   const auto modes = std::make_shared<analysis::UpdatedModes<Dim>>(problem);
   const auto growth = [modes](double time_step) { return std::log(modes->spectral_radius(time_step)); };
-  const auto of_frequencies = [&](std::string_view of) -> StepTheory {
+  const auto of_frequencies = [&](std::string_view of, bool by_integrator) -> StepTheory {
     const double fastest = analysis::growth_range(problem).omega_squared_max;
-    return {fastest > 0.0 ? std::optional(2.0 / std::sqrt(fastest)) : std::nullopt, std::string(of), growth};
+    return {fastest > 0.0 ? std::optional(2.0 / std::sqrt(fastest)) : std::nullopt, std::string(of), growth,
+            by_integrator};
   };
   return std::visit(
       Overloaded{[&](const analysis::ConditionallyStable<Dim>& stable) -> StepTheory {
@@ -62,8 +64,8 @@ StepTheory lattice_theory(const Problem<Dim>& problem) {
                  [&](const analysis::UnconditionallyStable&) -> StepTheory {
                    return {std::nullopt, std::string(of_the_lattice), growth};
                  },
-                 [&](const analysis::NeverStable<Dim>&) { return of_frequencies(of_growing_state); },
-                 [&](const analysis::WeaklyUnstable<Dim>&) { return of_frequencies(of_its_frequencies); }},
+                 [&](const analysis::NeverStable<Dim>&) { return of_frequencies(of_growing_state, false); },
+                 [&](const analysis::WeaklyUnstable<Dim>&) { return of_frequencies(of_its_frequencies, true); }},
       modes->limit());
 }
 
@@ -107,13 +109,29 @@ StepTheory step_theory(const Scene<Dim>& scene) {
   return {};
 }
 
-double chosen_time_step(const Case& input, const StepTheory& theory) {
+double predicted_e_foldings(const StepTheory& theory, double time_step, double duration) {
+  return duration / time_step * theory.growth_per_step(time_step);
+}
+
+/// A step of at most `time_step` in which theory predicts at most one e-folding over the duration, and not much less.
+/// Weak growth in time goes like Δt³ (theory.md §4), where XSPH meets a stress more slowly.
+double step_of_one_e_folding(const StepTheory& theory, double time_step, double duration) {
+  for (double e_foldings; (e_foldings = predicted_e_foldings(theory, time_step, duration)) > 1.0;)
+    time_step *= 0.99 / std::cbrt(e_foldings);
+  return time_step;
+}
+
+/// `time_step`, or `step_fraction` of the critical step; where neither is given and the integrator grows at every step,
+/// no more of it than one e-folding allows.
+double chosen_time_step(const Case& input, const StepTheory& theory, double duration) {
   if (const auto time_step = input.number("time_step")) {
     if (input.has("step_fraction")) throw InvalidInput("step_fraction: cannot be given with time_step");
     return *time_step;
   }
   if (!theory.critical_time_step) throw InvalidInput("time_step: missing; there is no critical step to take a part of");
-  return input.required_number("step_fraction") * *theory.critical_time_step;
+  const double of_critical = input.required_number("step_fraction") * *theory.critical_time_step;
+  if (input.has("step_fraction") || !theory.grows_by_integrator) return of_critical;
+  return step_of_one_e_folding(theory, of_critical, duration);
 }
 
 /// Linear schemes keep the energy below their critical step, whatever moves in them.
@@ -220,7 +238,7 @@ Json run_answer(const Case& input, const Request& request) {
   const auto scene = make_scene<Dim>(input);
   const double duration = input.required_number("duration");
   const StepTheory theory = step_theory(scene);
-  const double time_step = chosen_time_step(input, theory);
+  const double time_step = chosen_time_step(input, theory, duration);
   RunFiles<Dim> files(scene.body, request.folder);
   SceneRunOptions<Dim> options{.time_step = time_step,
                                .duration = duration,
@@ -240,7 +258,7 @@ Json run_answer(const Case& input, const Request& request) {
                  {"critical_time_step_of", theory.of}});
   if (has_no_theory_of_viscosity(scheme)) answer["note"] = "theory is that without viscosity";
   if (theory.growth_per_step) {
-    const double e_foldings = duration / time_step * theory.growth_per_step(time_step);
+    const double e_foldings = predicted_e_foldings(theory, time_step, duration);
     if (e_foldings > 1.0) answer["predicted_growth_e_foldings"] = e_foldings;
   }
   answer.update(to_json(result.summary));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `run` of the scheme `ul`, and of periodic patches, as a user meets it.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -100,11 +102,26 @@ TEST_CASE("a run of ul predicts its growth from the spectral radius at its step,
 
   Arguments text{"run"};
   text.insert(text.end(), updated_keys.begin(), updated_keys.end());
-  text.insert(text.end(), {"--patch", "6,6", "--duration", "100", "--initial-noise", "1e-9"});
+  text.insert(text.end(), {"--patch", "6,6", "--duration", "100", "--initial-noise", "1e-9", "--step-fraction", "0.9"});
   const auto outcome = run(text);
   CHECK(outcome.status == 3);
   CHECK_THAT(outcome.out, StartsWith("Run of a periodic patch of 6, 6: 36 particles\n") &&
                               Contains("WARNING              at this step theory predicts") && Contains("UNSTABLE"));
+}
+
+TEST_CASE("without a step given, an integrator that grows at every step takes one of at most one e-folding", "[fast]") {
+  for (const char* duration : {"100", "1000"}) {
+    const Json run = answer("run", {"--patch", "6,6", "--duration", duration, "--initial-noise", "1e-9"});
+    const double time_step = number(run["time_step"]);
+    CHECK(time_step < 0.9 * number(run["critical_time_step"]));
+    const Json theory = answer("dt", {"--time-step", fmt::format("{}", time_step)});
+    const double e_foldings =
+        std::stod(duration) / time_step * std::log(number(theory["spectral_radius_at_time_step"]));
+    CHECK(e_foldings <= 1.0);
+    CHECK(e_foldings > 0.9);  // 1 % of the step are 3 % of the growth
+    CHECK_FALSE(run.contains("predicted_growth_e_foldings"));
+    CHECK(run["unstable"] == false);
+  }
 }
 
 TEST_CASE("viscosity on approach alone runs with the theory of none, which it says", "[fast]") {
