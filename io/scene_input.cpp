@@ -270,6 +270,7 @@ class SceneReader {
   void read_velocity(const Document& document) {
     const Table table(document, {"region", "velocity", "gradient", "origin", "cantilever"});
     const auto region = shape_at<Dim>(table, "region");
+    if (!table.has("cantilever") && !table.has("velocity")) throw InvalidInput("velocity: missing (or cantilever)");
     if (!table.has("cantilever")) return scene_.velocities.push_back({region, read_affine(table, "velocity")});
     table.refuse({"velocity", "gradient", "origin"}, "cannot be given with cantilever");
     const Document& cantilever = table.at("cantilever");

@@ -7,6 +7,8 @@
 #include <array>
 #include <numbers>
 
+#include "model/compressible.hpp"
+
 namespace sphstab {
 namespace {
 
@@ -231,10 +233,12 @@ Problem<Dim> make_problem(const Case& input) {
                        .deviatoric_stress = make_deviatoric_stress<Dim>(input)};
   if (Dim != 2 && problem.plane != Plane::strain)
     throw InvalidInput(fmt::format("plane: {} is for 2 dimensions, not {}", name_of(problem.plane), Dim));
-  if (scheme.formulation == updated_lagrangian)
+  if (scheme.formulation == updated_lagrangian) {
+    require_compressible(problem.material);
     require_density(problem.material, problem.pressure);
-  else
+  } else {
     problem.material.lame(problem.plane);  // refuses ν = 0.5 in plane strain
+  }
   lattice_neighbours(problem.lattice, problem.kernel.support(), problem.neighbour_rule);  // refuses no neighbour
   return problem;
 }

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <utility>
 
+#include "model/compressible.hpp"
+
 namespace sphstab {
 namespace {
 
@@ -64,7 +66,7 @@ class Builder {
 
  private:
   void place_parts() {
-    if (description_.parts.empty()) throw InvalidInput("body: missing");
+    if (description_.parts.empty()) throw InvalidInput("body: missing (or patch)");
     for_each_of("body", description_.parts, [&](const auto& part, int i) { add(part, i); });
     find_sites();
     find_neighbours();
@@ -98,8 +100,12 @@ class Builder {
     const int index = static_cast<int>(found - materials_.begin());
     if (found != materials_.end()) return index;
     const Material& taken = description_.materials[material];
-    if (description_.problem.scheme.formulation == Formulation::total_lagrangian_linear)
-      in_context("material", [&] { taken.lame(description_.problem.plane); });  // refuses ν = 0.5 in plane strain
+    in_context("material", [&] {
+      if (description_.problem.scheme.formulation == Formulation::updated_lagrangian)
+        require_compressible(taken);
+      else
+        taken.lame(description_.problem.plane);  // refuses ν = 0.5 in plane strain
+    });
     materials_.push_back(material);
     body_.materials.push_back(taken);
     return index;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/compressible.hpp"
 #include "solver/stress.hpp"
 #include "solver/updated_stepper.hpp"
 #include "solver/updated_stress.hpp"
@@ -22,11 +23,6 @@ void require_updated_lagrangian(const Problem<Dim>& problem) {
     throw InvalidInput("neighbours: a run of ul needs support, not " + std::string(name_of(problem.neighbour_rule)));
   if (problem.plane != Plane::strain)
     throw InvalidInput("plane: a run of ul needs strain, not " + std::string(name_of(problem.plane)));
-}
-
-void require_compressible(const Material& material) {
-  if (!std::isfinite(material.bulk_modulus()))
-    throw InvalidInput(fmt::format("poisson_ratio: {} is not below 0.5 (scheme ul)", material.poisson_ratio()));
 }
 
 /// The periods of a box of these cells, in columns.

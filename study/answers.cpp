@@ -175,9 +175,8 @@ struct BisectionSubject {
 template <int Dim>
 BisectionSubject<Dim> bisection_subject(const Case& input) {
   if (names_body(input)) {
-    if (input.has("patch"))
-      throw InvalidInput(fmt::format("patch: cannot be given with {}", input.has("scene") ? "scene" : "plate"));
     Scene<Dim> scene = make_scene<Dim>(input);
+    if (scene.periodic_cells) return {scene.problem, PeriodicPatch<Dim>{*scene.periodic_cells}, body_name(input)};
     return {scene.problem, std::move(scene.body), body_name(input)};
   }
   const auto cells = make_size<Dim>(input, "patch").value_or(LatticeIndex<Dim>::Constant(default_patch_cells<Dim>));

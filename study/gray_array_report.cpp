@@ -57,7 +57,8 @@ Scene<2> array_scene(const Problem<2>& problem) {
   std::mt19937_64 generator(1);
   Vector<2> sum = Vector<2>::Zero();
   for (int a = 0; a < scene.body.size(); ++a) {
-    scene.velocity.emplace_back(noise * uniform_number(generator), noise * uniform_number(generator));
+    scene.velocity.push_back(Vector<2>::Zero());
+    for (double& component : scene.velocity.back()) component = noise * uniform_number(generator);
     sum += scene.velocity.back();
   }
   for (auto& v : scene.velocity) v -= sum / scene.body.size();  // the array stays where it is
@@ -150,13 +151,11 @@ Report gray_array_report(const Progress& progress) {
   report.summary = fmt::format(
       "Fig. 1 and conclusion 4 of Gray, Monaghan & Swift: {0} × {0} particles on the square lattice in a periodic box, "
       "positive pressure,\nno deviatoric stress, after {1} steps of 0.25 h/c0. Not given by the paper: P = {2} ρ0 c0², "
-      "μ = "
-      "{3}, noise of {4} c0, XSPH {5},\nviscosity α. Rates, in c0/Δp, are those of theory (`sphstab growth`), without "
-      "viscosity.\n\n{6}\nWith h = Δp the square array becomes the face-centred one, exactly as the paper says, and "
-      "theory "
-      "says why: in compression the\nsquare lattice has a transverse mode at (π/Δp, 0) that grows, the face-centred "
-      "one "
-      "none. With h = 1.5 Δp both grow: there is no\nregular array to go to.\n",
+      "μ = {3}, noise of {4} c0, XSPH {5},\nviscosity α. Rates, in c0/Δp, are those of theory (`sphstab growth`), "
+      "without viscosity. In the face-centred array a particle has two\nneighbours at Δp and four at 1.118 Δp.\n\n{6}\n"
+      "With h = Δp and viscosity the square array becomes the face-centred one and rests there, as the paper says; "
+      "without, it oscillates\nabout it. Theory says why: in compression the square lattice has a transverse mode at "
+      "(π/Δp, 0) that grows, the face-centred one none.\nWith h = 1.5 Δp both grow.\n",
       side, steps, pressure, shear_modulus, noise, xsph, io::to_markdown(table));
   report.files = {{"README.md", "# A compressed array finds a stable lattice, or none\n\n" + report.summary +
                                     "\n![the arrays before and after](array.svg)\n\nRegenerate with `sphstab report "

@@ -74,14 +74,11 @@ std::vector<Bond> bonds(const Scene<2>& scene) {
 
 /// What the deflection of the tip says: when it crosses 0, and how far it goes in between.
 void read_oscillation(Oscillation& run) {
-  std::vector<double> crossings, largest(1, 0.0);
-  for (std::size_t n = 1; n < run.time.size(); ++n) {
-    const double before = run.deflection[n - 1], now = run.deflection[n];
-    if (before * now < 0.0) {
-      crossings.push_back(std::lerp(run.time[n - 1], run.time[n], before / (before - now)));
-      largest.push_back(0.0);
-    }
-    largest.back() = std::max(largest.back(), std::abs(now));
+  const auto crossings = zero_crossings(run.time, run.deflection);
+  std::vector<double> largest(crossings.size() + 1, 0.0);  // before the first, between them, and after the last
+  for (std::size_t n = 0; n < run.time.size(); ++n) {
+    const auto passed = std::upper_bound(crossings.begin(), crossings.end(), run.time[n]) - crossings.begin();
+    largest[passed] = std::max(largest[passed], std::abs(run.deflection[n]));
   }
   if (crossings.size() >= 2) run.period = crossings[1];
   // The way back from the second largest deflection must have begun.
@@ -89,6 +86,13 @@ void read_oscillation(Oscillation& run) {
 }
 
 }  // namespace
+
+std::vector<double> zero_crossings(const std::vector<double>& time, const std::vector<double>& y) {
+  std::vector<double> crossings;
+  for (std::size_t n = 1; n < time.size(); ++n)
+    if (y[n - 1] * y[n] < 0.0) crossings.push_back(std::lerp(time[n - 1], time[n], y[n - 1] / (y[n - 1] - y[n])));
+  return crossings;
+}
 
 double Plate::time_step() const { return courant_number * spacing() / p_wave_speed(problem_of(*this)); }
 

@@ -62,6 +62,9 @@ struct PlateImage {
   std::vector<double> stress;  ///< σ_xx
 };
 
+/// When y passes 0, between samples along straight lines.
+std::vector<double> zero_crossings(const std::vector<double>& time, const std::vector<double>& y);
+
 struct Oscillation {
   std::vector<double> time;
   std::vector<double> deflection;  ///< of the tip

@@ -8,6 +8,7 @@
 
 #include "solver/simulation.hpp"
 #include "solver/updated_simulation.hpp"
+#include "study/p_wave_speed.hpp"
 
 namespace sphstab::study {
 namespace {
@@ -19,6 +20,8 @@ constexpr long look_every = 50;
 /// Numbers beyond it count as not finite: their squares times any modulus or mass are still numbers, so that the
 /// energies of the last state are.
 constexpr double largest_number = 1e100;
+/// Velocities below this part of c_p are what the rounding of stresses makes.
+constexpr double velocity_of_rounding = 1e-14;
 /// A duration that is a whole number of time steps but for rounding takes no step more.
 constexpr double rounding_of_steps = 1e-12;
 
@@ -321,7 +324,7 @@ class Run {
     for (int a = 0; a < motion_.particles(); ++a)
       work += motion_.mass(a) * motion_.constant_force()[a].dot(motion_.displacement(a));
     std::optional<double> momentum_drift;
-    if (free_.any()) momentum_drift = largest_momentum_ > 0.0 ? largest_momentum_drift_ / largest_momentum_ : 0.0;
+    if (free_.any()) momentum_drift = moves() ? largest_momentum_drift_ / largest_momentum_ : 0.0;
     return {.time = time(),
             .steps = step_,
             .right_hand_sides = right_hand_sides,
@@ -335,6 +338,13 @@ class Run {
             .momentum_drift = momentum_drift,
             .list_builds = list_builds,
             .lost_particles = motion_.lost_particles()};
+  }
+
+  /// Whether anything moves at more than what the rounding of the stresses of a body at rest brings about.
+  bool moves() const {
+    double mass = 0.0;
+    for (int a = 0; a < motion_.particles(); ++a) mass += motion_.mass(a);
+    return largest_momentum_ > velocity_of_rounding * mass * p_wave_speed(scene_.problem);
   }
 
   /// ½ Σ m v² with velocities at the time of the displacements. Those of the start are taken as they are.
@@ -379,6 +389,8 @@ template <int Dim>
 SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options) {
   require_positive("time_step", options.time_step);
   require_positive("duration", options.duration);
+  if (const auto particle = first_not_finite<Dim>(scene.velocity))
+    throw InvalidInput(fmt::format("velocity: that of particle {} is beyond {:g}", *particle, largest_number));
   if (!(options.duration / options.time_step <= most_steps))
     throw InvalidInput(
         fmt::format("duration: {} takes more than {} steps of {}", options.duration, most_steps, options.time_step));

@@ -90,7 +90,8 @@ struct SceneRunResult {
 /// Runs the scene from its base state with the velocities that it starts with: those of half a step before with
 /// `leapfrog`. A run with non-finite values stops at the exact step of the first one, whatever the interval at which it
 /// is looked at. With `verlet` every sample, snapshot and 50th step costs an evaluation of the forces.
-/// Throws InvalidInput (`time_step`, `duration`) unless both are positive and the steps are at most 1e15. Tested in
+/// Throws InvalidInput (`time_step`, `duration`) unless both are positive and the steps are at most 1e15, and
+/// (`velocity`) for velocities beyond 1e100. Tested in
 /// tests/study/test_scene_run.cpp.
 template <int Dim>
 SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options);

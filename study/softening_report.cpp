@@ -42,11 +42,7 @@ struct HalfPeriods {
 };
 
 HalfPeriods half_periods(const std::vector<double>& time, const std::vector<double>& displacement) {
-  std::vector<double> crossings;
-  for (std::size_t n = 1; n < time.size(); ++n) {
-    const double before = displacement[n - 1], now = displacement[n];
-    if (before * now < 0.0) crossings.push_back(std::lerp(time[n - 1], time[n], before / (before - now)));
-  }
+  auto crossings = gray::zero_crossings(time, displacement);
   crossings.resize(2, std::nan(""));
   return {crossings[0], crossings[1] - crossings[0]};
 }

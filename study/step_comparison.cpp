@@ -28,8 +28,12 @@ constexpr double start_fraction = 0.3;
 constexpr double farthest_over_start = 100.0;
 /// The step at which weak growth shows, in units of 1/ω: half of what the leapfrog bears.
 constexpr double weak_growth_step = 1.0;
-/// A run that measures growth may last this many horizons of five e-foldings, so that the fastest mode is alone.
-constexpr long growth_horizons = 8;
+/// A run that measures growth may last this many horizons of five e-foldings, so that the fastest mode is alone
+/// (study/perturbation_run.cpp).
+constexpr long growth_horizons = 80;
+/// Weaker stresses, in ρ c0², drive so slowly that the rounding of the forces matters; and a principal stress must be
+/// out of reach of the departures of a run, where artificial stress has a kink.
+constexpr double weakest_stress = 1e-7, weakest_principal_stress = 1e-5;
 /// The critical mode is that which grows at this multiple of the limit.
 constexpr double beyond_limit = 1.01;
 
@@ -75,6 +79,14 @@ StepComparison compare_growth(const GrowthProbe& run, const TheoryLimit& theory,
           .growth = GrowthComparison{time_step, fit.growth_per_step, growth_per_step}};
 }
 
+/// The smallest and the largest |σ_i| of the base state of `ul`, in ρ0 c0².
+template <int Dim>
+std::pair<double, double> principal_stresses(const Problem<Dim>& problem) {
+  const Tensor<Dim> stress = problem.deviatoric_stress - problem.pressure * Tensor<Dim>::Identity();
+  const auto size = Eigen::SelfAdjointEigenSolver<Tensor<Dim>>(stress).eigenvalues().cwiseAbs().eval();
+  return {size.minCoeff() / problem.material.bulk_modulus(), size.maxCoeff() / problem.material.bulk_modulus()};
+}
+
 template <int Dim>
 void require_comparable(const Problem<Dim>& problem, const BodyChoice<Dim>& choice) {
   const bool is_body = std::holds_alternative<Body<Dim>>(choice);
@@ -84,14 +96,20 @@ void require_comparable(const Problem<Dim>& problem, const BodyChoice<Dim>& choi
   if (is_body)
     throw InvalidInput("scheme: there is no spectrum of a body of ul to compare with; bisect takes a patch of it");
   const auto& artificial = problem.scheme.artificial_stress;
+  const auto [smallest, largest] = principal_stresses(problem);
+  if (largest > 0.0 && largest < weakest_stress)
+    throw InvalidInput(fmt::format(
+        "pressure: a stress of {:.2g} rho c0^2 is so weak that rounding decides how a run grows; give at least {:g}, "
+        "or none",
+        largest, weakest_stress));
   if (!artificial) return;
-  if (artificial->linearisation == ArtificialStressLinearisation::frozen)
+  require_running_artificial_stress(problem.scheme);
+  if (smallest < weakest_principal_stress)
     throw InvalidInput(
-        "artificial_stress_linearisation: a run's artificial stress follows the stress; bisect needs exact");
-  if (analysis::has_one_sided_states(problem))
-    throw InvalidInput(
-        "artificial_stress_epsilon: a principal stress is 0, so that artificial stress switches with every wave; a run "
-        "obeys no linear theory then. Give a stress, or 0");
+        fmt::format("artificial_stress_epsilon: a principal stress is 0, or below {:g} rho c0^2, so that artificial "
+                    "stress switches "
+                    "with every wave; a run obeys no linear theory then. Give more stress, or 0",
+                    weakest_principal_stress));
 }
 
 /// Our own solver, from noise or from the mode that theory calls critical.
@@ -127,6 +145,13 @@ bool StepComparison::agrees(double tolerance) const {
   if (growth) return run.low == 0.0 && *relative_difference() <= growth_tolerance;
   if (theory.critical_time_step) return relative_difference() && *relative_difference() <= tolerance;
   return !std::isfinite(run.high);
+}
+
+void require_running_artificial_stress(const Scheme& scheme) {
+  if (scheme.artificial_stress && scheme.artificial_stress->linearisation == ArtificialStressLinearisation::frozen)
+    throw InvalidInput(
+        "artificial_stress_linearisation: frozen is for theory alone, in a run artificial stress follows the stress; "
+        "give exact");
 }
 
 template <int Dim>

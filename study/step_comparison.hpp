@@ -78,6 +78,9 @@ std::optional<double> bulk_step(const Problem<Dim>& problem);
 template <int Dim>
 solver::Field<Dim> critical_mode_displacement(const Problem<Dim>& problem, const BodyChoice<Dim>& choice);
 
+/// Throws InvalidInput (`artificial_stress_linearisation`) for `frozen`: in a run artificial stress follows the stress.
+void require_running_artificial_stress(const Scheme& scheme);
+
 /// Finds the critical step by running the solver with `probe` if given (a foreign solver), ours otherwise, and sets
 /// theory beside it. Where theory says that every step grows, the growth at one step is measured. Where it says that
 /// none does, `ul` is run up to a hundred times the first step. Throws InvalidInput (`displacement_gradient`) for a

@@ -5,12 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/updated_stress.hpp"
 #include "study/noise.hpp"
+#include "study/p_wave_speed.hpp"
 
 namespace sphstab::study {
 namespace {
 
-constexpr double seed_velocity = 1e-9, largest_velocity = 1e-6;  ///< in c_p
+constexpr double largest_velocity = 1e-6;  ///< in c_p
+/// What grows under a stress σ = s ρ c0² does so at a rate of about 2√s c0/Δp. Its displacements must stay below
+/// 0.01 √s Δp for the stress that they make, of second order, to be far below σ: velocities below this times s.
+constexpr double largest_velocity_over_stress = 0.02;
+constexpr double seed_over_largest = 1e-3;
 
 template <int Dim>
 PerturbationRun noisy_run(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, unsigned noise_seed) {
@@ -28,10 +34,13 @@ PerturbedPatch<Dim>::PerturbedPatch(const Problem<Dim>& problem, const LatticeIn
   base_ = solver::flat_state(state_);
   const Material& material = problem.material;
   const double density = state_.density[0], mu = material.shear_modulus();
-  speed_of_p_waves_ = std::sqrt(material.p_wave_modulus() / material.density());
+  speed_of_p_waves_ = p_wave_speed(problem);
   crossing_time_ = problem.lattice.spacing() / speed_of_p_waves_;
   of_density_ = std::sqrt(material.bulk_modulus() / material.density()) / density;
   of_deviatoric_ = mu > 0.0 ? 1.0 / (2.0 * mu * density) : 0.0;
+  const Tensor<Dim> stress = problem.deviatoric_stress - problem.pressure * Tensor<Dim>::Identity();
+  const double size = stress.norm() / material.bulk_modulus();
+  largest_amplitude_ = size > 0.0 ? std::min(largest_velocity, largest_velocity_over_stress * size) : largest_velocity;
 }
 
 template <int Dim>
@@ -50,23 +59,16 @@ double PerturbedPatch<Dim>::amplitude(const Eigen::VectorXd& departure) {
   for (int a = 0; a < particles(); ++a) {
     const auto numbers = departure.segment(size * a, size);
     const Vector<symmetric_size<Dim>> components = numbers.template segment<symmetric_size<Dim>>(2 * Dim + 1);
-    const auto S = symmetric_tensor<Dim, double>(components);
-    double deviatoric_square = S.squaredNorm();
-    if constexpr (Dim < 3) deviatoric_square += S.trace() * S.trace() / (3 - Dim);
+    const auto S = solver::deviatoric_stress_in_space<double, Dim>(symmetric_tensor<Dim, double>(components));
     square += numbers.template segment<Dim>(Dim).squaredNorm() + std::pow(of_density_ * numbers[2 * Dim], 2) +
-              of_deviatoric_ * deviatoric_square;
+              of_deviatoric_ * S.squaredNorm();
   }
   return std::sqrt(square / particles()) / speed_of_p_waves_;
 }
 
 template <int Dim>
 double PerturbedPatch<Dim>::seed_amplitude(double time_step) const {
-  return seed_velocity * std::min(1.0, crossing_time_ / time_step);
-}
-
-template <int Dim>
-double PerturbedPatch<Dim>::largest_amplitude() const {
-  return largest_velocity;
+  return seed_over_largest * largest_amplitude_ * std::min(1.0, crossing_time_ / time_step);
 }
 
 template <int Dim>

@@ -29,8 +29,9 @@ class PerturbedPatch : public PerturbedSolver {
   /// Large enough for the rounding of positions, 1e-15, to do no more to growth than 1e-6. Where a step is long, so
   /// that it moves no farther.
   double seed_amplitude(double time_step) const override;
-  /// 1e-6: where neighbours sit on a kink of W'', the error of growth is of that order.
-  double largest_amplitude() const override;
+  /// 1e-6, or less where the stress is weak: where neighbours sit on a kink of W'', the error of growth is of that
+  /// order.
+  double largest_amplitude() const override { return largest_amplitude_; }
 
  private:
   solver::UpdatedSimulation<Dim> simulation_;
@@ -38,7 +39,8 @@ class PerturbedPatch : public PerturbedSolver {
   Eigen::VectorXd base_;
   double crossing_time_;  ///< Δp / c_p
   double speed_of_p_waves_;
-  double of_density_;     ///< c0/ρ̄
+  double of_density_;  ///< c0/ρ̄
+  double largest_amplitude_;
   double of_deviatoric_;  ///< 1/(2μρ̄), 0 where μ = 0
 };
 

@@ -109,7 +109,7 @@ TEST_CASE("contradictory keys are refused", "[fast]") {
   CHECK(dt_complaint({"--steps", "10", "--tolerated-growth-per-step", "0.1"}) ==
         "tolerated_growth_per_step: cannot be given with steps");
   CHECK(complaint_about(on_case("bisect", {"--patch", "3,3", "--plate", "3,3"})) ==
-        "patch: cannot be given with plate");
+        "plate: cannot be given with patch");
 }
 
 TEST_CASE("a lattice belongs to a dimension, and plane stress to two", "[fast]") {

@@ -212,7 +212,7 @@ TEST_CASE("a mistake in a scene file is named by table, number, key and value", 
   CHECK(complaint_of(edge + "traction = [1.0, 0.0]\nshear = 1.0\n") ==
         "traction 1: shear: cannot be given with traction");
   CHECK(complaint_of(edge + "traction = [1.0, 0.0]\nlayer = 0.0\n") == "traction 1: layer: 0 is not above 0");
-  CHECK(complaint(keys_of_case) == "body: missing");
+  CHECK(complaint(keys_of_case) == "body: missing (or patch)");
   CHECK(complaint(keys_of_case + "body = 3\n") == "body: is no array of tables, [[body]]");
   CHECK(complaint("scene = \"other.toml\"\n" + plate) == "scene: a scene file names no other scene");
   CHECK_THROWS_WITH(scene_of(keys_of_case + "gravity = [1.0]\n" + plate),

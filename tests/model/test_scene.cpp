@@ -183,7 +183,7 @@ TEST_CASE("scenes that cannot be are refused with the number of the table", "[fa
   const Box<2> outside{{50.0, 0.0}, {60.0, 2.0}};
   auto nothing = scene_of(plate);
   nothing.parts.clear();
-  CHECK_THROWS_WITH(make_scene(nothing), "body: missing");
+  CHECK_THROWS_WITH(make_scene(nothing), "body: missing (or patch)");
   auto overlap = scene_of(plate);
   overlap.parts.push_back(part("second", Box<2>{{3.5, 1.5}, {4.5, 2.0}}));
   CHECK_THROWS_WITH(make_scene(overlap),
