@@ -7,7 +7,7 @@
 
 #include "analysis/growth.hpp"
 #include "io/document.hpp"
-#include "model/uniform.hpp"
+#include "study/noise.hpp"
 #include "study/parallel.hpp"
 #include "study/particle_pictures.hpp"
 #include "study/report.hpp"
@@ -23,7 +23,7 @@ constexpr double shear_modulus = 0.3;
 constexpr double xsph = 0.5;
 /// Δt c0/h, and the random velocities at the start in c0.
 constexpr double courant_number = 0.25;
-constexpr double noise = 1e-6;
+constexpr double noise_speed = 1e-6;
 constexpr long steps = 10000;
 /// Distances of neighbours: the square lattice has 4 closer than this, the face-centred one 2 at 1 and 4 at 1.118 Δp.
 constexpr double close = 1.28;
@@ -54,11 +54,9 @@ Scene<2> array_scene(const Problem<2>& problem) {
   const LatticeIndex<2> cells(side, side);
   Scene<2> scene{.name = "array", .problem = problem, .body = periodic_patch(problem, cells), .probes = {}};
   scene.periodic_cells = cells;
-  std::mt19937_64 generator(1);
   Vector<2> sum = Vector<2>::Zero();
-  for (int a = 0; a < scene.body.size(); ++a) {
-    scene.velocity.push_back(Vector<2>::Zero());
-    for (double& component : scene.velocity.back()) component = noise * uniform_number(generator);
+  for (const auto& v : noise<2>(scene.body.size(), 1)) {
+    scene.velocity.push_back(noise_speed * v);
     sum += scene.velocity.back();
   }
   for (auto& v : scene.velocity) v -= sum / scene.body.size();  // the array stays where it is
@@ -149,17 +147,18 @@ Report gray_array_report(const Progress& progress) {
   Report report;
   report.failures = failures_of(arrays);
   report.summary = fmt::format(
-      "Fig. 1 and conclusion 4 of Gray, Monaghan & Swift: {0} × {0} particles on the square lattice in a periodic box, "
-      "positive pressure,\nno deviatoric stress, after {1} steps of 0.25 h/c0. Not given by the paper: P = {2} ρ0 c0², "
-      "μ = {3}, noise of {4} c0, XSPH {5},\nviscosity α. Rates, in c0/Δp, are those of theory (`sphstab growth`), "
-      "without viscosity. In the face-centred array a particle has two\nneighbours at Δp and four at 1.118 Δp.\n\n{6}\n"
-      "With h = Δp and viscosity the square array becomes the face-centred one and rests there, as the paper says; "
-      "without, it oscillates\nabout it. Theory says why: in compression the square lattice has a transverse mode at "
-      "(π/Δp, 0) that grows, the face-centred one none.\nWith h = 1.5 Δp both grow.\n",
-      side, steps, pressure, shear_modulus, noise, xsph, io::to_markdown(table));
+      "Fig. 1 and conclusion 4 of Gray, Monaghan & Swift: {0} × {0} particles on the square lattice in a periodic "
+      "box, positive pressure,\nno deviatoric stress, after {1} steps of 0.25 h/c0. Not given by the paper: P = {2} "
+      "ρ0 c0², μ = {3}, noise of {4} c0, XSPH {5},\nviscosity α. Rates, in c0/Δp, are those of theory (`sphstab "
+      "growth`), without viscosity. In the face-centred array a particle has two\nneighbours at Δp and four at 1.118 "
+      "Δp.\n\n"
+      "{6}\nWith h = Δp and viscosity the square array becomes the face-centred one and rests there, as the paper "
+      "says; without, it oscillates\nabout it. Theory says why: in compression the square lattice has a transverse "
+      "mode at (π/Δp, 0) that grows, the face-centred one none.\nWith h = 1.5 Δp both grow.\n",
+      side, steps, pressure, shear_modulus, noise_speed, xsph, io::to_markdown(table));
   report.files = {{"README.md", "# A compressed array finds a stable lattice, or none\n\n" + report.summary +
-                                    "\n![the arrays before and after](array.svg)\n\nRegenerate with `sphstab report "
-                                    "gray-array --overwrite`.\n"},
+                                    "\n![the arrays before and after](array.svg)\n\nRegenerate with `sphstab "
+                                    "report gray-array --overwrite`.\n"},
                   {"array.csv", io::to_csv(table)},
                   {"array.svg", io::render_svg(figure)}};
   return report;

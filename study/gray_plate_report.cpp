@@ -289,28 +289,27 @@ Report gray_plate_report(const Progress& progress) {
       {"steps", comparison_table("integrator and step", runs.step)},
       {"fine_periods", period_table(runs.fine_rows, runs.fine)}};
   report.summary = fmt::format(
-      "The oscillating plate of Gray, Monaghan & Swift, Sec. 7.1, in their units (cm, c0, ρ0 c0²): L = {} cm, H = 2 or "
-      "1 cm, h = 1.5 Δp,\nΔp = {} cm, XSPH 0.5, n = 4. The paper gives neither viscosity nor time step nor the size of "
-      "the clamp: here α = 0.5, `leapfrog`\nwith Δt = 1.6 Δp/c_p, and a clamp of {} cm between two layers of {} "
-      "particles.\n\n"
+      "The oscillating plate of Gray, Monaghan & Swift, Sec. 7.1, in their units (cm, c0, ρ0 c0²): L = {} cm, H = 2 "
+      "or 1 cm, h = 1.5 Δp,\nΔp = {} cm, XSPH 0.5, n = 4. The paper gives neither viscosity nor time step nor the "
+      "size of the clamp: here α = 0.5, `leapfrog`\nwith Δt = 1.6 Δp/c_p, and a clamp of {} cm between two layers of "
+      "{} particles.\n\n"
       "- With artificial stress every plate swings. Periods differ from the paper's by at most {} in Table 1. Table 2 "
-      "does "
-      "not come out:\n  {}, and {} with 20 spacings across as in Table 1; the paper does not say how finely it was "
-      "resolved.\n"
+      "does not come out:\n  {}, and {} with 20 spacings across as in Table 1; the paper does not say how finely it "
+      "was resolved.\n"
       "- Periods are 10 to 14 % above the thin plate of Eq. 7.1 with H − Δp, and 15 to 25 % above it with H; the "
-      "printed "
-      "theory is the former\n  (errata.md G16).\n"
+      "printed theory is the former\n  (errata.md G16).\n"
       "- Without artificial stress plates with V_f of 0.03 and more break where the lower side meets the clamp, that "
-      "of "
-      "Fig. 2 too.\n"
+      "of Fig. 2 too.\n"
       "- Artificial stress alone does not keep the plate: without viscosity it falls apart within half a period, "
       "whatever the step\n  and the integrator. On the square lattice no ε is stable in tension (report tension); "
       "viscosity slows what grows.\n\n"
       "T is the time of the second passage through the place of rest. A plate `breaks` if its tip does not come back; "
-      "pairs `part` when\nneighbours on the lattice are more than {} Δp apart.\n\nTables 1 and 2, ε = "
-      "0.3:\n\n{}\nTable "
-      "2 with Δp = {}:\n\n{}\nThe same as Tables 1 and 2 without artificial stress. The e-foldings are those of the "
-      "fastest mode of the tension at the root,\nviscosity included, over its history up to then:\n\n{}",
+      "pairs `part` when\nneighbours on the lattice are more than {} Δp apart.\n\n"
+      "Tables 1 and 2, ε = 0.3:\n\n"
+      "{}\nTable 2 with Δp = {}:\n\n"
+      "{}\nThe same as Tables 1 and 2 without artificial stress. The e-foldings are those of the fastest mode of the "
+      "tension at the root,\nviscosity included, over its history up to then:\n\n"
+      "{}",
       gray::plate_length, table_spacing, gray::clamp_length, gray::clamp_layers,
       percent_of(largest_difference(printed, runs.with, 2.0)), percent_of(largest_difference(printed, runs.with, 1.0)),
       percent_of(largest_difference(runs.fine_rows, runs.fine, 1.0)), gray::parted, io::to_markdown(tables[0].second),

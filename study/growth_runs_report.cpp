@@ -187,21 +187,20 @@ std::string summary_of(const Findings& found) {
       std::count_if(found.switches.begin(), found.switches.end(), [](const auto& at) { return at.growing > 0; });
   return fmt::format(
       "The running solver of the scheme `ul` beside its theory, which is written independently: periodic patches, in "
-      "units\nρ0 = c0 = Δp = 1, μ = 0.3, stresses of 5 % of ρ0 c0². How it is measured:\n"
-      "[docs/updated_lagrangian.md](../../docs/updated_lagrangian.md).\n\n"
-      "- Growth per step of {} base states, both signs of stress: runs from the theory's wave differ from ln |λ| by at "
-      "most {:.0e},\n  means over {} runs from noise by at most {:.0e} of the growth; what theory calls stable grows "
-      "in no run. Where runs agree\n  among each other to 1e-5 a step, their mean may be more than 3 standard errors "
-      "off: slower waves hold it back.\n"
+      "units\nρ0 = c0 = Δp = 1, μ = 0.3, stresses of 5 % of ρ0 c0². How it is "
+      "measured:\n[docs/updated_lagrangian.md](../../docs/updated_lagrangian.md).\n\n"
+      "- Growth per step of {} base states, both signs of stress: runs from the theory's wave differ from ln |λ| by "
+      "at most {:.0e},\n  means over {} runs from noise by at most {:.0e} of the growth; what theory calls stable "
+      "grows in no run. Where runs agree\n  among each other to 1e-5 a step, their mean may be more than 3 standard "
+      "errors off: slower waves hold it back.\n"
       "- The predictor-corrector at zero stress grows by (ωΔt)⁴/8 a step, with stored rates by twice that.\n"
-      "- {} critical steps by bisection, inviscid `leapfrog` and `verlet`, viscous all four integrators: within {:.0e} "
-      "of theory.\n"
+      "- {} critical steps by bisection, inviscid `leapfrog` and `verlet`, viscous all four integrators: within "
+      "{:.0e} of theory.\n"
       "- Viscosity on approach alone damps a small wave half as fast as on approach and separation, the more exactly "
-      "the "
-      "weaker it\n  is: the harmonics of half a wave's force remain, and in a wave that travels they travel with it.\n"
+      "the weaker it\n  is: the harmonics of half a wave's force remain, and in a wave that travels they travel with "
+      "it.\n"
       "- At exactly zero stress with artificial stress a run follows neither of the two linearisations, both stable: "
-      "at "
-      "{} of {}\n  steps below the limit of both some of {} runs grow, the faster the nearer to it.\n",
+      "at {} of {}\n  steps below the limit of both some of {} runs grow, the faster the nearer to it.\n",
       found.growths.size(), seeded, noise_runs, noisy, found.bisections.size(), bisected, at_switch,
       found.switches.size(), noise_runs);
 }

@@ -45,18 +45,18 @@ PatchWave<Dim> fastest_wave(const Problem<Dim>& problem, const Vector<Dim>& wave
 }
 
 template <int Dim>
-PatchWave<Dim> fastest_wave(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, double time_step) {
-  const auto wave_vectors = analysis::patch_wave_vectors<Dim>(problem.lattice, cells);
-  Vector<Dim> fastest = wave_vectors.front();
-  double largest = 0.0;
-  for (const auto& k : wave_vectors) {
+PatchRadius<Dim> largest_radius(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, double time_step) {
+  PatchRadius<Dim> largest{Vector<Dim>::Zero(), 0.0};
+  for (const auto& k : analysis::patch_wave_vectors<Dim>(problem.lattice, cells)) {
     const double radius = analysis::mode_spectrum<Dim>(problem, k, time_step).spectral_radius;
-    if (radius > largest) {
-      largest = radius;
-      fastest = k;
-    }
+    if (radius > largest.spectral_radius) largest = {k, radius};
   }
-  return fastest_wave<Dim>(problem, fastest, time_step);
+  return largest;
+}
+
+template <int Dim>
+PatchWave<Dim> fastest_wave(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, double time_step) {
+  return fastest_wave<Dim>(problem, largest_radius(problem, cells, time_step).wave_vector, time_step);
 }
 
 template <int Dim>
@@ -84,14 +84,17 @@ double seeded_growth(const PatchWave<Dim>& wave, const Problem<Dim>& problem, co
   return 2.0 * growth_at(0.5 * displacement) - growth_at(displacement);
 }
 
+template PatchRadius<1> largest_radius(const Problem<1>&, const LatticeIndex<1>&, double);
 template PatchWave<1> fastest_wave(const Problem<1>&, const Vector<1>&, double);
 template PatchWave<1> fastest_wave(const Problem<1>&, const LatticeIndex<1>&, double);
 template Eigen::VectorXd departure_of(const PatchWave<1>&, const Problem<1>&, const LatticeIndex<1>&);
 template double seeded_growth(const PatchWave<1>&, const Problem<1>&, const LatticeIndex<1>&, double);
+template PatchRadius<2> largest_radius(const Problem<2>&, const LatticeIndex<2>&, double);
 template PatchWave<2> fastest_wave(const Problem<2>&, const Vector<2>&, double);
 template PatchWave<2> fastest_wave(const Problem<2>&, const LatticeIndex<2>&, double);
 template Eigen::VectorXd departure_of(const PatchWave<2>&, const Problem<2>&, const LatticeIndex<2>&);
 template double seeded_growth(const PatchWave<2>&, const Problem<2>&, const LatticeIndex<2>&, double);
+template PatchRadius<3> largest_radius(const Problem<3>&, const LatticeIndex<3>&, double);
 template PatchWave<3> fastest_wave(const Problem<3>&, const Vector<3>&, double);
 template PatchWave<3> fastest_wave(const Problem<3>&, const LatticeIndex<3>&, double);
 template Eigen::VectorXd departure_of(const PatchWave<3>&, const Problem<3>&, const LatticeIndex<3>&);

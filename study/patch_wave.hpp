@@ -20,6 +20,15 @@ struct PatchWave {
   double growth_per_step() const { return std::log(std::abs(eigenvalue)); }
 };
 
+/// The largest spectral radius of E(k) over the wave vectors that a patch admits, and where it is.
+template <int Dim>
+struct PatchRadius {
+  Vector<Dim> wave_vector;
+  double spectral_radius;
+};
+template <int Dim>
+PatchRadius<Dim> largest_radius(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, double time_step);
+
 /// The one whose |λ| is largest, at one wave vector or of all that the patch admits.
 template <int Dim>
 PatchWave<Dim> fastest_wave(const Problem<Dim>& problem, const Vector<Dim>& wave_vector, double time_step);

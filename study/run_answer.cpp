@@ -143,10 +143,10 @@ bool has_grown(const SceneSummary& summary, bool can_grow, double energy_of_roun
              energy_that_shows_growth * (std::abs(summary.work) + summary.initial_energy + energy_of_rounding);
 }
 
-/// That of velocities of 1e-14 c_p, which the rounding of stresses makes.
+/// That of velocities which the rounding of stresses makes.
 template <int Dim>
 double energy_of_rounding(const Scene<Dim>& scene) {
-  const double velocity = 1e-14 * p_wave_speed(scene.problem);
+  const double velocity = velocity_of_rounding * p_wave_speed(scene.problem);
   double mass = 0.0;
   for (int a = 0; a < scene.body.size(); ++a) mass += scene.body.mass(a);
   return 0.5 * mass * velocity * velocity;

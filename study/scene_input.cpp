@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <random>
-
 #include "io/case_input.hpp"
 #include "io/scene_input.hpp"
-#include "model/uniform.hpp"
 #include "study/counts.hpp"
+#include "study/noise.hpp"
 #include "study/p_wave_speed.hpp"
 
 namespace sphstab::study {
@@ -63,13 +61,11 @@ void require_equilibrium(const Scene<Dim>& scene) {
 /// Adds velocities of which every component is uniform in ±`speed`.
 template <int Dim>
 void add_noise(Scene<Dim>& scene, double speed, unsigned seed) {
-  std::mt19937_64 generator(seed);
+  const auto velocity = noise<Dim>(scene.body.size(), seed);
   scene.velocity.resize(scene.body.size(), Vector<Dim>::Zero());
   for (int a = 0; a < scene.body.size(); ++a)
-    for (int i = 0; i < Dim; ++i) {
-      const double noise = speed * uniform_number(generator);
-      if (scene.body.clamped.empty() || !scene.body.clamped[a][i]) scene.velocity[a][i] += noise;
-    }
+    for (int i = 0; i < Dim; ++i)
+      if (scene.body.clamped.empty() || !scene.body.clamped[a][i]) scene.velocity[a][i] += speed * velocity[a][i];
 }
 
 }  // namespace
@@ -79,8 +75,8 @@ Scene<Dim> make_scene(const Case& input) {
   if (!names_body(input) && !input.has("patch")) throw InvalidInput("scene: missing (or plate)");
   Scene<Dim> scene = named_scene<Dim>(input);
   require_equilibrium(scene);
-  if (const double noise = input.required_number("initial_noise"); noise > 0.0)
-    add_noise(scene, noise * p_wave_speed(scene.problem), static_cast<unsigned>(input.required_number("noise_seed")));
+  if (const double speed = input.required_number("initial_noise"); speed > 0.0)
+    add_noise(scene, speed * p_wave_speed(scene.problem), static_cast<unsigned>(input.required_number("noise_seed")));
   return scene;
 }
 

@@ -20,8 +20,6 @@ constexpr long look_every = 50;
 /// Numbers beyond it count as not finite: their squares times any modulus or mass are still numbers, so that the
 /// energies of the last state are.
 constexpr double largest_number = 1e100;
-/// Velocities below this part of c_p are what the rounding of stresses makes.
-constexpr double velocity_of_rounding = 1e-14;
 /// A duration that is a whole number of time steps but for rounding takes no step more.
 constexpr double rounding_of_steps = 1e-12;
 

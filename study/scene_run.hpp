@@ -24,6 +24,9 @@ struct Snapshot {
   std::vector<double> density;           ///< of `ul`; empty otherwise
 };
 
+/// Velocities below this part of c_p are what the rounding of stresses makes.
+inline constexpr double velocity_of_rounding = 1e-14;
+
 template <int Dim>
 struct SceneRunOptions {
   double time_step;

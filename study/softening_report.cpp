@@ -232,18 +232,18 @@ Report softening_report(const Progress& progress) {
   Report report;
   report.failures = failures_of(runs);
   report.summary = fmt::format(
-      "Artificial stress with ε = {} pulls only where there is tension, in proportion to it, so that a body in tension "
-      "is softer,\nhowever small the tension. Scheme `ul`, `leapfrog`, exact R.\n\n"
+      "Artificial stress with ε = {} pulls only where there is tension, in proportion to it, so that a body in "
+      "tension is softer,\nhowever small the tension. Scheme `ul`, `leapfrog`, exact R.\n\n"
       "A bar, clamped at one end, swings in its lowest mode: in tension for the first half period, in compression for "
-      "the second.\n(T/2 without / T/2 with artificial stress)² is the factor of its modulus; theory says 1 − ε a_n in "
-      "tension and 1 in compression. The\nextrapolated rows take the two "
-      "longest to infinite length, errors in proportion to the spacing.\n\n{}\n"
-      "The plate of Gray et al., Sec. 7.1, bends: of its two halves one is in tension. A modulus qE on the side in "
-      "tension leaves\n4q/(1+√q)² of the bending stiffness. h = 1.5 Δp, square lattice, μ = 0.22, V_f = {}, α = {} "
+      "the second.\n(T/2 without / T/2 with artificial stress)² is the factor of its modulus; theory says 1 − ε a_n "
+      "in tension and 1 in compression. The\nextrapolated rows take the two longest to infinite length, errors in "
+      "proportion to the spacing.\n\n"
+      "{}\nThe plate of Gray et al., Sec. 7.1, bends: of its two halves one is in tension. A modulus qE on the side "
+      "in tension leaves\n4q/(1+√q)² of the bending stiffness. h = 1.5 Δp, square lattice, μ = 0.22, V_f = {}, α = {} "
       "against the short waves that\nartificial stress drives in the square lattice; q = {:.5f}. The last row takes "
-      "the "
-      "two finest to infinitely many spacings, errors in\nproportion to the spacing: at the surfaces stencils are "
-      "cut.\n\n{}",
+      "the two finest to infinitely many spacings, errors in\nproportion to the spacing: at the surfaces stencils are "
+      "cut.\n\n"
+      "{}",
       epsilon, io::to_markdown(bar_table(runs)), beam_tip_velocity, beam_viscosity, beam_modulus_factor(),
       io::to_markdown(beam_table(runs)));
   report.files = {{"README.md", "# What artificial stress takes of the stiffness\n\n" + report.summary +

@@ -51,15 +51,6 @@ std::optional<double> step_of(const analysis::StepLimit<Dim>& limit) {
   return std::nullopt;
 }
 
-/// Growth per step of the fastest mode of a patch by theory.
-template <int Dim>
-double patch_growth(const Problem<Dim>& problem, const PeriodicPatch<Dim>& patch, double time_step) {
-  double radius = 0.0;
-  for (const auto& k : analysis::patch_wave_vectors<Dim>(problem.lattice, patch.cells))
-    radius = std::max(radius, analysis::mode_spectrum<Dim>(problem, k, time_step).spectral_radius);
-  return std::log(radius);
-}
-
 /// Runs twice at one step, the second time from the fastest mode of the first.
 StepComparison compare_growth(const GrowthProbe& run, const TheoryLimit& theory, double growth_per_step,
                               std::optional<long> horizon) {
@@ -212,7 +203,8 @@ StepComparison compare_step(const Problem<Dim>& problem, const BodyChoice<Dim>& 
   const GrowthProbe run = probe ? probe : our_solver(problem, choice, body, theory, options);
   StepComparison found;
   if (theory.growing_step) {
-    const double growth = patch_growth(problem, std::get<PeriodicPatch<Dim>>(choice), *theory.growing_step);
+    const double growth = std::log(
+        largest_radius(problem, std::get<PeriodicPatch<Dim>>(choice).cells, *theory.growing_step).spectral_radius);
     found = compare_growth(run, theory, growth, options.horizon);
   } else {
     BisectionOptions search{.start = scan_start(problem, body.materials),
