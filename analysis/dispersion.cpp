@@ -116,6 +116,8 @@ DispersionRelation<Dim>::DispersionRelation(const Problem<Dim>& problem)
         switch (problem.scheme.formulation) {
           case Formulation::total_lagrangian_linear:
             return LinearWaves<Dim>(problem);
+          case Formulation::total_lagrangian_corotated:
+          case Formulation::total_lagrangian_pk1:
           case Formulation::updated_lagrangian:
             break;
         }

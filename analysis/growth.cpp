@@ -214,6 +214,8 @@ GrowthRange<Dim> growth_range(const Problem<Dim>& problem) {
   switch (problem.scheme.formulation) {
     case Formulation::total_lagrangian_linear:
       return linear_range(problem);
+    case Formulation::total_lagrangian_corotated:
+    case Formulation::total_lagrangian_pk1:
     case Formulation::updated_lagrangian:
       break;
   }

@@ -44,6 +44,7 @@ const Key keys[] = {
     {"radial", KeyKind::number, KeyGroup::body, "0", "force per area away from the centre"},
     {"shear", KeyKind::number, KeyGroup::body, "0", "force per area anticlockwise about the centre"},
     {"at_radius", KeyKind::number, KeyGroup::body, "", "of the surface", positive},
+    {"force", KeyKind::numbers, KeyGroup::body, "", "total force, per thickness in 2D, shared by mass"},
     {"layer", KeyKind::number, KeyGroup::body, "", "thickness of the particles that carry the load", positive},
     {"position", KeyKind::numbers, KeyGroup::body, "", "near the particle"},
     {"from", KeyKind::numbers, KeyGroup::body, "", "lowest corner of a box"},
@@ -241,19 +242,24 @@ class SceneReader {
   }
 
   void read_traction(const Document& document) {
-    const Table table(document,
-                      {"region", "traction", "gradient", "origin", "centre", "radial", "shear", "at_radius", "layer"});
+    const Table table(document, {"region", "traction", "gradient", "origin", "centre", "radial", "shear", "at_radius",
+                                 "layer", "force"});
     scene_.tractions.push_back({shape_at<Dim>(table, "region"), read_stress(table), table.optional_number("layer")});
   }
 
-  static std::variant<AffineField<Dim>, CentredTraction<Dim>> read_stress(const Table& table) {
+  static decltype(Traction<Dim>::stress) read_stress(const Table& table) {
+    if (table.has("force")) {
+      table.refuse({"traction", "gradient", "origin", "centre", "radial", "shear", "at_radius", "layer"},
+                   "cannot be given with force");
+      return TotalForce<Dim>{table.matrix<Dim>("force")};
+    }
     if (table.has("traction")) {
       table.refuse({"centre", "radial", "shear", "at_radius"}, "cannot be given with traction");
       return read_affine(table, "traction");
     }
     table.refuse({"gradient", "origin"}, "only with traction");
     if (!table.has("radial") && !table.has("shear"))
-      throw InvalidInput("traction: missing (or radial or shear with centre)");
+      throw InvalidInput("traction: missing (or force, or radial or shear with centre)");
     return CentredTraction<Dim>{.centre = table.matrix<Dim>("centre"),
                                 .radial = table.number("radial"),
                                 .shear = table.number("shear"),

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -29,24 +30,35 @@ void require_length(std::string_view key, std::size_t given, std::size_t needed)
   if (given != needed) throw InvalidInput(fmt::format("{}: has {} components, but {} are needed", key, given, needed));
 }
 
-/// The keys that mean something for one formulation only.
-struct SchemeKey {
+/// Formulations that some keys are for.
+struct SchemeFamily {
   std::string_view name;
-  Formulation formulation;
+  bool (*includes)(Formulation);
 };
 using enum Formulation;
-constexpr std::array scheme_keys{SchemeKey{"density_in_momentum", total_lagrangian_linear},
-                                 SchemeKey{"displacement_gradient", total_lagrangian_linear},
-                                 SchemeKey{"kernel_normalisation", total_lagrangian_linear},
-                                 SchemeKey{"damping_rate", total_lagrangian_linear},
-                                 SchemeKey{"plane", total_lagrangian_linear},
-                                 SchemeKey{"sound_speed", updated_lagrangian},
-                                 SchemeKey{"pressure", updated_lagrangian},
-                                 SchemeKey{"deviatoric_stress", updated_lagrangian},
-                                 SchemeKey{"artificial_stress_epsilon", updated_lagrangian},
-                                 SchemeKey{"xsph", updated_lagrangian},
-                                 SchemeKey{"viscosity_alpha", updated_lagrangian},
-                                 SchemeKey{"density_rate", updated_lagrangian}};
+constexpr SchemeFamily linear{"the scheme tl-linear", [](Formulation f) { return f == total_lagrangian_linear; }};
+constexpr SchemeFamily finite_strain{"the schemes tl-corotated and tl-pk1", is_finite_strain};
+constexpr SchemeFamily total_lagrangian{"total-Lagrangian schemes", is_total_lagrangian};
+constexpr SchemeFamily updated{"the scheme ul", [](Formulation f) { return f == updated_lagrangian; }};
+
+/// The keys that mean something for some formulations only.
+struct SchemeKey {
+  std::string_view name;
+  SchemeFamily of;
+};
+constexpr std::array scheme_keys{SchemeKey{"density_in_momentum", linear},
+                                 SchemeKey{"displacement_gradient", linear},
+                                 SchemeKey{"kernel_normalisation", linear},
+                                 SchemeKey{"plane", linear},
+                                 SchemeKey{"elastic_law", finite_strain},
+                                 SchemeKey{"damping_rate", total_lagrangian},
+                                 SchemeKey{"sound_speed", updated},
+                                 SchemeKey{"pressure", updated},
+                                 SchemeKey{"deviatoric_stress", updated},
+                                 SchemeKey{"artificial_stress_epsilon", updated},
+                                 SchemeKey{"xsph", updated},
+                                 SchemeKey{"viscosity_alpha", updated},
+                                 SchemeKey{"density_rate", updated}};
 
 /// Whether the key switches nothing on: zeros, or the default.
 bool is_neutral(const Case& input, const Key& key) {
@@ -58,14 +70,14 @@ bool is_neutral(const Case& input, const Key& key) {
   return *input.word(key.name) == key.default_value;
 }
 
-InvalidInput of_another_scheme(std::string_view key, Formulation of, Formulation given) {
-  return InvalidInput(fmt::format("{}: is for the scheme {}, not {}", key, name_of(of), name_of(given)));
+InvalidInput of_another_scheme(std::string_view key, std::string_view of, Formulation given) {
+  return InvalidInput(fmt::format("{}: is for {}, not {}", key, of, name_of(given)));
 }
 
 void refuse_keys_of_other_schemes(const Case& input, Formulation formulation) {
   for (const auto& [name, of] : scheme_keys)
-    if (of != formulation && input.has(name) && !is_neutral(input, find_key(name)))
-      throw of_another_scheme(name, of, formulation);
+    if (!of.includes(formulation) && input.has(name) && !is_neutral(input, find_key(name)))
+      throw of_another_scheme(name, of.name, formulation);
 }
 
 std::optional<ArtificialStress> make_artificial_stress(const Case& input) {
@@ -81,6 +93,7 @@ std::optional<ArtificialStress> make_artificial_stress(const Case& input) {
 
 Scheme make_scheme(const Case& input) {
   Scheme scheme{.formulation = enumerator<Formulation>(input, "scheme"),
+                .elastic_law = enumerator<ElasticLaw>(input, "elastic_law"),
                 .momentum_density = enumerator<MomentumDensity>(input, "density_in_momentum"),
                 .kernel_normalisation = enumerator<KernelNormalisation>(input, "kernel_normalisation"),
                 .damping = std::nullopt,
@@ -89,6 +102,8 @@ Scheme make_scheme(const Case& input) {
                 .viscosity = std::nullopt,
                 .density_rate = enumerator<DensityRate>(input, "density_rate")};
   refuse_keys_of_other_schemes(input, scheme.formulation);
+  if (scheme.elastic_law == ElasticLaw::neo_hookean && scheme.formulation == total_lagrangian_corotated)
+    throw of_another_scheme("elastic_law: neo-hookean", "the scheme tl-pk1", scheme.formulation);
   if (const double rate = input.required_number("damping_rate"); rate > 0.0) scheme.damping = Damping{rate};
   if (const double epsilon = input.required_number("xsph"); epsilon != 0.0) scheme.xsph = Xsph{epsilon};
   if (const double alpha = input.required_number("viscosity_alpha"); alpha > 0.0)
@@ -98,10 +113,10 @@ Scheme make_scheme(const Case& input) {
 }
 
 Integrator make_integrator(const Case& input, Formulation formulation) {
-  const bool updated = formulation == updated_lagrangian;
-  if (!input.has("integrator")) return updated ? Integrator::predictor_corrector : Integrator::leapfrog;
+  const bool is_updated = !is_total_lagrangian(formulation);
+  if (!input.has("integrator")) return is_updated ? Integrator::predictor_corrector : Integrator::leapfrog;
   const auto integrator = enumerator<Integrator>(input, "integrator");
-  if (!updated && integrator != Integrator::leapfrog && integrator != Integrator::verlet)
+  if (!is_updated && integrator != Integrator::leapfrog && integrator != Integrator::verlet)
     throw for_updated_lagrangian_only(integrator);
   return integrator;
 }
@@ -114,13 +129,20 @@ Tensor<Dim> make_tensor(const Case& input, std::string_view key, const Tensor<Di
   return Eigen::Map<const Tensor<Dim>>(rows->data()).transpose();
 }
 
-/// The lattice of the base state.
+/// Whatever it is that it deforms.
+template <int Dim>
+Tensor<Dim> make_deformation_gradient(const Case& input, Formulation formulation) {
+  const Tensor<Dim> unity = Tensor<Dim>::Identity(), F = make_tensor<Dim>(input, "deformation_gradient", unity);
+  if (formulation == total_lagrangian_linear && F != unity)
+    throw of_another_scheme("deformation_gradient", "the schemes tl-corotated, tl-pk1 and ul", formulation);
+  return F;
+}
+
+/// The lattice on which the kernels are evaluated: that of the base state in `ul`, the reference state otherwise.
 template <int Dim>
 Lattice<Dim> make_deformed_lattice(const Case& input, Formulation formulation) {
-  const Tensor<Dim> unity = Tensor<Dim>::Identity(), F = make_tensor<Dim>(input, "deformation_gradient", unity);
-  if (formulation != updated_lagrangian && F != unity)
-    throw of_another_scheme("deformation_gradient", updated_lagrangian, formulation);
-  return make_lattice<Dim>(input).deformed(F);
+  if (is_total_lagrangian(formulation)) return make_lattice<Dim>(input);
+  return make_lattice<Dim>(input).deformed(make_deformation_gradient<Dim>(input, formulation));
 }
 
 /// S of the base state of `ul`.
@@ -155,7 +177,12 @@ Case Case::under(const Case& upper) const {
 
 template <class Type>
 std::optional<Type> Case::value(std::string_view key) const {
-  if (const auto found = values_.find(key); found != values_.end()) return std::get<Type>(found->second);
+  if (const auto found = values_.find(key); found != values_.end()) {
+    if (const auto* held = std::get_if<Type>(&found->second)) return *held;
+    if (const auto* word = std::get_if<std::string>(&found->second))
+      throw InvalidInput(fmt::format("{}: '{}' is for run; here a number is needed", key, *word));
+    throw InvalidInput(fmt::format("{}: a word is needed here", key));
+  }
   const Key& entry = find_key(key);
   if (entry.default_value.empty()) return std::nullopt;
   return std::get<Type>(parse_value(entry, entry.default_value));
@@ -229,8 +256,15 @@ Problem<Dim> make_problem(const Case& input) {
                        .scheme = scheme,
                        .integrator = make_integrator(input, scheme.formulation),
                        .displacement_gradient = make_tensor<Dim>(input, "displacement_gradient"),
+                       .deformation_gradient = Tensor<Dim>::Identity(),
                        .pressure = input.required_number("pressure"),
                        .deviatoric_stress = make_deviatoric_stress<Dim>(input)};
+  if (const Tensor<Dim> F = make_deformation_gradient<Dim>(input, scheme.formulation);
+      is_finite_strain(scheme.formulation)) {
+    if (const double J = F.determinant(); !(J > 0.0))
+      throw InvalidInput(fmt::format("deformation_gradient: its determinant {} is not above 0", J));
+    problem.deformation_gradient = F;
+  }
   if (Dim != 2 && problem.plane != Plane::strain)
     throw InvalidInput(fmt::format("plane: {} is for 2 dimensions, not {}", name_of(problem.plane), Dim));
   if (scheme.formulation == updated_lagrangian) {

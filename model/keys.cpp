@@ -19,6 +19,7 @@ constexpr Limits not_negative{.low = 0.0};
 constexpr Limits at_least_one{.low = 1.0};
 
 constexpr std::array<std::string_view, 2> seed_words{"noise", "mode"};
+constexpr std::array<std::string_view, 1> time_step_words{"auto"};
 constexpr std::array<std::string_view, 4> upper_bound_words{"auto", "factorisation", "norm-bound", "probabilistic"};
 
 using enum KeyKind;
@@ -45,26 +46,31 @@ const Key table[] = {
     {"bulk_modulus", number, material, "", "bulk modulus, with shear_modulus", positive},
     {"shear_modulus", number, material, "", "shear modulus, stress over engineering shear strain", not_negative},
     {"sound_speed", number, material, "", "ul: bulk sound speed c0, with shear_modulus", positive},
-    {"plane", word, material, "strain", "tl-linear: plane strain or plane stress (2D)", any_number, all_names<Plane>},
+    {"plane", word, material, "strain", "tl-linear: plane strain or plane stress (2D); others are plane strain",
+     any_number, all_names<Plane>},
 
     {"scheme", word, scheme, "",
-     "discretisation: tl-linear (Zhang et al., total Lagrangian, linear), ul (Gray et al., updated Lagrangian)",
+     "discretisation: tl-linear (Zhang et al., total Lagrangian, linear), tl-corotated (Tran-Duc et al., total "
+     "Lagrangian, force R S), tl-pk1 (the same with force F S), ul (Gray et al., updated Lagrangian)",
      any_number, all_names<Formulation>},
     {"integrator", word, scheme, "", "time integrator; default leapfrog, predictor-corrector for ul", any_number,
      all_names<Integrator>},
+    {"elastic_law", word, scheme, "saint-venant-kirchhoff",
+     "tl-corotated, tl-pk1: stress of large strains; neo-hookean (compressible) for tl-pk1", any_number,
+     all_names<ElasticLaw>},
     {"density_in_momentum", word, scheme, "frozen", "tl-linear: density in the momentum equation", any_number,
      all_names<MomentumDensity>},
     {"displacement_gradient", numbers, scheme, "",
      "tl-linear: displacement gradient of the base state, row by row; default zeros"},
     {"deformation_gradient", numbers, scheme, "",
-     "ul: the lattice is deformed by it, row by row, at fixed h and W(spacing), a particle filling a deformed cell; "
-     "default the identity"},
+     "row by row; tl-corotated, tl-pk1: that of the base state; ul: the lattice is deformed by it at fixed h and "
+     "W(spacing), a particle filling a deformed cell; default the identity"},
     {"pressure", number, scheme, "0", "ul: pressure of the base state, positive in compression"},
     {"deviatoric_stress", numbers, scheme, "",
      "ul: deviatoric stress of the base state: Sxx; Sxx,Syy,Sxy; Sxx,Syy,Szz,Sxy,Syz,Sxz; default zeros"},
     {"kernel_normalisation", word, scheme, "none", "tl-linear: division of the particle sums by the kernel sum",
      any_number, all_names<KernelNormalisation>},
-    {"damping_rate", number, scheme, "0", "tl-linear: mass-proportional damping, 1/time", not_negative},
+    {"damping_rate", number, scheme, "0", "total-Lagrangian schemes: mass-proportional damping, 1/time", not_negative},
     {"density_rate", word, scheme, "masses",
      "ul: sum of masses (Eq. 3.8) or of volumes (Eq. 3.9, for bodies of different densities)", any_number,
      all_names<DensityRate>},
@@ -94,7 +100,8 @@ const Key table[] = {
     {"path_points", integer, path, "200", "points along the path", {.low = 2.0}},
     {"grid", integers, path, "", "points of a grid over the Brillouin zone along each reciprocal vector", at_least_one},
 
-    {"time_step", number, time, "", "length of a step, a time", positive},
+    {"time_step", number, time, "", "length of a step, a time; run: auto follows the limit of the moving body",
+     positive, time_step_words},
     {"tolerated_growth_per_step", number, growth, "", "growth per step, max abs(lambda) - 1, that is acceptable",
      positive},
     {"steps", number, growth, "", "instead of it: number of steps in which a factor e is acceptable", at_least_one},
@@ -138,6 +145,10 @@ const Key table[] = {
     {"artificial_stress_exponent", number, artificial_stress, "4", "ul: exponent n of the artificial stress's weight",
      not_negative},
 };
+
+bool is_word_of(const Key& key, std::string_view given) {
+  return std::find(key.words.begin(), key.words.end(), given) != key.words.end();
+}
 
 double parse_number(const Key& key, std::string_view word) {
   double value = 0.0;
@@ -183,6 +194,7 @@ KeyValue parse_value(const Key& key, std::string_view text_given) {
   switch (key.kind) {
     case number:
     case integer:
+      if (is_word_of(key, text_given)) return std::string(text_given);
       return parse_number(key, text_given);
     case numbers:
     case integers:
@@ -198,6 +210,7 @@ void check_value(const Key& key, const KeyValue& value) {
   switch (key.kind) {
     case number:
     case integer:
+      if (const auto* given = std::get_if<std::string>(&value); given && is_word_of(key, *given)) return;
       if (!std::holds_alternative<double>(value)) throw InvalidInput(fmt::format("{}: is not a number", key.name));
       return check_number(key, std::get<double>(value));
     case numbers:
@@ -209,8 +222,7 @@ void check_value(const Key& key, const KeyValue& value) {
     case word:
     case text:
       if (!std::holds_alternative<std::string>(value)) throw InvalidInput(fmt::format("{}: is not a word", key.name));
-      if (const auto& given = std::get<std::string>(value);
-          !key.words.empty() && std::find(key.words.begin(), key.words.end(), given) == key.words.end())
+      if (const auto& given = std::get<std::string>(value); !key.words.empty() && !is_word_of(key, given))
         throw unknown_word(key.name, given, key.words);
       return;
   }

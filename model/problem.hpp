@@ -21,6 +21,8 @@ struct Problem {
   Integrator integrator = Integrator::leapfrog;
   /// Base state of `tl-linear`: displacement u(x) = H x; perturbations are added to it.
   Tensor<Dim> displacement_gradient = Tensor<Dim>::Zero();
+  /// Base state of `tl-corotated` and `tl-pk1`: x = F0 X; perturbations are added to it.
+  Tensor<Dim> deformation_gradient = Tensor<Dim>::Identity();
   /// Base state of `ul`, σ = −P I + S. The lattice is that of the stressed state, whose density ρ0 + P/c0² a particle
   /// of one cell has.
   double pressure = 0.0;

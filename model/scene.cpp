@@ -101,7 +101,7 @@ class Builder {
     if (found != materials_.end()) return index;
     const Material& taken = description_.materials[material];
     in_context("material", [&] {
-      if (description_.problem.scheme.formulation == Formulation::updated_lagrangian)
+      if (!is_total_lagrangian(description_.problem.scheme.formulation))
         require_compressible(taken);
       else
         taken.lame(description_.problem.plane);  // refuses ν = 0.5 in plane strain
@@ -180,17 +180,25 @@ class Builder {
   void load(const Traction<Dim>& traction) {
     if (traction.layer) require_positive("layer", *traction.layer);
     body_.load.resize(body_.size(), Vector<Dim>::Zero());
-    for (const int a : particles_in(traction.region)) {
-      const Vector<Dim> stress = std::visit([&](const auto& kind) { return stress_at(kind, a); }, traction.stress);
+    const std::vector<int> loaded = particles_in(traction.region);
+    if (const auto* total = std::get_if<TotalForce<Dim>>(&traction.stress)) return share(total->force, loaded);
+    for (const int a : loaded) {
+      const auto* field = std::get_if<AffineField<Dim>>(&traction.stress);
+      const Vector<Dim> stress =
+          field ? value_at(*field, a) : stress_at(std::get<CentredTraction<Dim>>(traction.stress), a);
       body_.load[a] += stress / (body_.material_of(a).density() * traction.layer.value_or(layer_[part_[a]]));
     }
+  }
+
+  void share(const Vector<Dim>& force, const std::vector<int>& particles) {
+    double mass = 0.0;
+    for (const int a : particles) mass += body_.mass(a);
+    for (const int a : particles) body_.load[a] += force / mass;
   }
 
   Vector<Dim> value_at(const AffineField<Dim>& field, int a) const {
     return field.value + field.gradient * (body_.position[a] - field.origin);
   }
-
-  Vector<Dim> stress_at(const AffineField<Dim>& traction, int a) const { return value_at(traction, a); }
 
   Vector<Dim> stress_at(const CentredTraction<Dim>& traction, int a) const {
     if (traction.at_radius) require_positive("at_radius", *traction.at_radius);

@@ -66,12 +66,20 @@ struct CentredTraction {
   std::optional<double> at_radius = {};  ///< none: t is that of the particles' own radius
 };
 
+/// A force (per thickness in 2-D, per area in 1-D) that the particles share in proportion to their mass: a point load
+/// where they are few.
+template <int Dim>
+struct TotalForce {
+  Vector<Dim> force;
+};
+
 /// A traction t on the particles of a region, which are a layer of the thickness D at the surface: the force t/(ρ D)
-/// per mass. On cells of the area V/D each that cover the surface it adds up to the force on the surface.
+/// per mass. On cells of the area V/D each that cover the surface it adds up to the force on the surface. Or a force
+/// that is given as a whole.
 template <int Dim>
 struct Traction {
   Shape<Dim> region;
-  std::variant<AffineField<Dim>, CentredTraction<Dim>> stress;
+  std::variant<AffineField<Dim>, CentredTraction<Dim>, TotalForce<Dim>> stress;
   std::optional<double> layer = {};  ///< D; none: the spacing, or the thickness of a ring of a polar arrangement
 };
 

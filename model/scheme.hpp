@@ -11,13 +11,38 @@ namespace sphstab {
 /// The SPH discretisation of the solid.
 enum class Formulation {
   total_lagrangian_linear,  ///< Zhang, Hu, Cui & Wang, Eqs. 6-9: small strain, kernel gradients of the reference state
-  updated_lagrangian        ///< Gray, Monaghan & Swift, Eqs. 3.1-3.14: kernel gradients of the present state
+  /// Tran-Duc, Meylan & Thamwattana, Sec. 2.3: renormalised gradients of the reference state, force R·S
+  total_lagrangian_corotated,
+  total_lagrangian_pk1,  ///< the same with the force F·S of the first Piola-Kirchhoff stress
+  updated_lagrangian     ///< Gray, Monaghan & Swift, Eqs. 3.1-3.14: kernel gradients of the present state
 };
 
 template <>
 struct Names<Formulation> {
-  static constexpr std::array<Named<Formulation>, 2> table{
-      {{Formulation::total_lagrangian_linear, "tl-linear"}, {Formulation::updated_lagrangian, "ul"}}};
+  static constexpr std::array<Named<Formulation>, 4> table{{{Formulation::total_lagrangian_linear, "tl-linear"},
+                                                            {Formulation::total_lagrangian_corotated, "tl-corotated"},
+                                                            {Formulation::total_lagrangian_pk1, "tl-pk1"},
+                                                            {Formulation::updated_lagrangian, "ul"}}};
+};
+
+constexpr bool is_total_lagrangian(Formulation formulation) { return formulation != Formulation::updated_lagrangian; }
+
+/// Whether strains and rotations may be large and the gradients are renormalised.
+constexpr bool is_finite_strain(Formulation formulation) {
+  return formulation == Formulation::total_lagrangian_corotated || formulation == Formulation::total_lagrangian_pk1;
+}
+
+/// The second Piola-Kirchhoff stress S of finite strain, E = (FᵀF − I)/2 Green's strain, C = FᵀF, J = det F; in two
+/// dimensions of plane strain, in one of uniaxial strain.
+enum class ElasticLaw {
+  saint_venant_kirchhoff,  ///< S = λ tr(E) I + 2 G E
+  neo_hookean              ///< S = G (I − C⁻¹) + λ ln(J) C⁻¹, of tl-pk1 only
+};
+
+template <>
+struct Names<ElasticLaw> {
+  static constexpr std::array<Named<ElasticLaw>, 2> table{
+      {{ElasticLaw::saint_venant_kirchhoff, "saint-venant-kirchhoff"}, {ElasticLaw::neo_hookean, "neo-hookean"}}};
 };
 
 /// The density in σ/ρ² of Zhang's Eq. 7; Eq. 9 takes m/ρ0 in both cases (errata.md Z9).
@@ -133,6 +158,7 @@ struct Names<DensityRate> {
 /// A scheme: its formulation and the terms that are switched on. An absent optional is a term that costs nothing.
 struct Scheme {
   Formulation formulation = Formulation::total_lagrangian_linear;
+  ElasticLaw elastic_law = ElasticLaw::saint_venant_kirchhoff;
   MomentumDensity momentum_density = MomentumDensity::frozen;
   KernelNormalisation kernel_normalisation = KernelNormalisation::none;
   std::optional<Damping> damping = {};
@@ -144,7 +170,7 @@ struct Scheme {
 
 /// Throws InvalidInput naming `what` there is for total-Lagrangian schemes alone, unless this is one.
 inline void require_total_lagrangian(const Scheme& scheme, const std::string& what) {
-  if (scheme.formulation == Formulation::updated_lagrangian)
+  if (!is_total_lagrangian(scheme.formulation))
     throw InvalidInput("scheme: " + what + " is for total-Lagrangian schemes, not " +
                        std::string(name_of(scheme.formulation)));
 }

@@ -41,7 +41,8 @@ Simulation<Dim, Scalar>::Simulation(const Problem<Dim>& problem, const Body<Dim>
       neighbour_(body.pairs.neighbour),
       P_(body.size()),
       acceleration_(body.size()) {
-  require_total_lagrangian(problem.scheme, "a run");
+  if (problem.scheme.formulation != Formulation::total_lagrangian_linear)
+    throw InvalidInput("scheme: this solver runs tl-linear, not " + std::string(name_of(problem.scheme.formulation)));
   for (const auto& material : body.materials) substances_.push_back({material.lame(plane_), 1.0 / material.density()});
   for (const auto& load : body.load) load_.push_back(load.template cast<Real<Scalar>>());
   for (int a = 0; a < static_cast<int>(body.clamped.size()); ++a)

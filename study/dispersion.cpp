@@ -341,6 +341,8 @@ io::LineFigure band_figure(const Case& input) {
   switch (problem.scheme.formulation) {
     case Formulation::total_lagrangian_linear:
       return band_figure(input, problem, LinearBands<Dim>(problem));
+    case Formulation::total_lagrangian_corotated:
+    case Formulation::total_lagrangian_pk1:
     case Formulation::updated_lagrangian:
       break;
   }

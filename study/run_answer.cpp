@@ -104,6 +104,8 @@ StepTheory step_theory(const Scene<Dim>& scene) {
   switch (scene.problem.scheme.formulation) {
     case Formulation::total_lagrangian_linear:
       return linear_theory(scene);
+    case Formulation::total_lagrangian_corotated:
+    case Formulation::total_lagrangian_pk1:
     case Formulation::updated_lagrangian:
       return updated_theory(scene);
   }

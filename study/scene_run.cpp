@@ -395,6 +395,8 @@ SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim
   switch (scene.problem.scheme.formulation) {
     case Formulation::total_lagrangian_linear:
       return Run<Dim, LinearMotion<Dim>>(scene, options).result();
+    case Formulation::total_lagrangian_corotated:
+    case Formulation::total_lagrangian_pk1:
     case Formulation::updated_lagrangian:
       return Run<Dim, UpdatedMotion<Dim>>(scene, options).result();
   }

@@ -206,7 +206,7 @@ TEST_CASE("a mistake in a scene file is named by table, number, key and value", 
   CHECK(complaint_of("[[body]]\nname = 3\n" + plate.substr(plate.find("shape"))) == "body 2: name: is not a word");
   CHECK(complaint_of(plate + "cut = 3\n") == "body 2: cut: is no list of shapes");
   const std::string edge = "[[traction]]\nregion.box = { from = [0.0, 0.0], to = [0.5, 2.0] }\n";
-  CHECK(complaint_of(edge) == "traction 1: traction: missing (or radial or shear with centre)");
+  CHECK(complaint_of(edge) == "traction 1: traction: missing (or force, or radial or shear with centre)");
   CHECK(complaint_of(edge + "shear = 1.0\n") == "traction 1: centre: missing");
   CHECK(complaint_of(edge + "shear = 1.0\norigin = [0.0, 0.0]\n") == "traction 1: origin: only with traction");
   CHECK(complaint_of(edge + "traction = [1.0, 0.0]\nshear = 1.0\n") ==

@@ -228,16 +228,50 @@ TEST_CASE("a deformation gradient moves the sites of the lattice and nothing els
                     "deformation_gradient: has 1 components, but 4 are needed");
 }
 
+TEST_CASE("a deformation gradient is the base state of large strain and leaves the lattice alone", "[fast]") {
+  Case input = complete();
+  for (const char* scheme : {"tl-corotated", "tl-pk1"}) {
+    input.set("scheme", std::string(scheme));
+    CHECK(make_problem<2>(input).deformation_gradient == Tensor<2>::Identity());
+    input.set("deformation_gradient", std::vector{1.1, 0.2, -0.1, 0.9});
+    const auto problem = make_problem<2>(input);
+    CHECK(problem.deformation_gradient == Tensor<2>{{1.1, 0.2}, {-0.1, 0.9}});
+    CHECK(problem.lattice.primitive_vectors() == make_lattice<2>(input).primitive_vectors());
+    input.set("deformation_gradient", std::vector{0.0, 1.0, 1.0, 0.0});
+    CHECK_THROWS_WITH(make_problem<2>(input), "deformation_gradient: its determinant -1 is not above 0");
+    input.set("deformation_gradient", std::vector{1.0, 0.0, 0.0, 1.0});
+  }
+  input.set("elastic_law", std::string("neo-hookean"));
+  CHECK(make_problem<2>(input).scheme.elastic_law == ElasticLaw::neo_hookean);
+  input.set("scheme", std::string("tl-corotated"));
+  CHECK_THROWS_WITH(make_problem<2>(input), "elastic_law: neo-hookean: is for the scheme tl-pk1, not tl-corotated");
+  input.set("scheme", std::string("tl-linear"));
+  CHECK_THROWS_WITH(make_problem<2>(input), "elastic_law: is for the schemes tl-corotated and tl-pk1, not tl-linear");
+}
+
+TEST_CASE("a time step is a number, or where a run asks for it auto", "[fast]") {
+  Case input;
+  input.set("time_step", parse_value(find_key("time_step"), "auto"));
+  CHECK(input.word("time_step") == "auto");
+  CHECK_THROWS_WITH(input.number("time_step"), "time_step: 'auto' is for run; here a number is needed");
+  CHECK_THROWS_WITH(input.set("time_step", std::string("soon")), "time_step: is not a number");
+  input.set("time_step", parse_value(find_key("time_step"), "0.25"));
+  CHECK(input.number("time_step") == 0.25);
+  CHECK_THROWS_WITH(input.word("time_step"), "time_step: a word is needed here");
+}
+
 TEST_CASE("keys of another scheme are refused unless they switch nothing on", "[fast]") {
   for (const auto& [key, text] : {std::pair{"density_in_momentum", "equation-of-state"},
                                   {"displacement_gradient", "0.1,0,0,0"},
                                   {"kernel_normalisation", "sum"},
-                                  {"damping_rate", "0.1"},
                                   {"plane", "stress"}})
     CHECK_THROWS_WITH(make_problem<2>(updated({{key, text}})),
                       std::string(key) + ": is for the scheme tl-linear, not ul");
-  for (const auto& [key, text] : {std::pair{"deformation_gradient", "1.1,0,0,1"},
-                                  {"pressure", "0.1"},
+  CHECK_THROWS_WITH(make_problem<2>(updated({{"damping_rate", "0.1"}})),
+                    "damping_rate: is for total-Lagrangian schemes, not ul");
+  CHECK_THROWS_WITH(make_problem<2>(complete_with("deformation_gradient", "1.1,0,0,1")),
+                    "deformation_gradient: is for the schemes tl-corotated, tl-pk1 and ul, not tl-linear");
+  for (const auto& [key, text] : {std::pair{"pressure", "0.1"},
                                   {"deviatoric_stress", "0,0,0.1"},
                                   {"artificial_stress_epsilon", "0.3"},
                                   {"xsph", "0.5"},

@@ -129,6 +129,18 @@ TEST_CASE("a traction adds up to its integral over the surface, gravity to the w
   CHECK((total_force(make_scene(description).body) - Vector<2>(12.0, -4.0)).norm() < 12 * rounding);
 }
 
+TEST_CASE("a total force is shared by the particles of its region in proportion to their mass", "[fast]") {
+  auto description = scene_of(plate);
+  description.tractions = {{Box<2>{{3.5, 0.0}, {4.0, 0.5}}, TotalForce<2>{{2.0, -7.0}}}};
+  const auto body = make_scene(description).body;
+  CHECK((total_force(body) - Vector<2>(2.0, -7.0)).norm() < 8 * rounding);
+  int loaded = 0;
+  for (int a = 0; a < body.size(); ++a) loaded += !body.load[a].isZero(0.0);
+  CHECK(loaded == 1);
+  description.tractions[0].region = Box<2>{{3.5, 0.0}, {4.0, 2.0}};
+  CHECK((total_force(make_scene(description).body) - Vector<2>(2.0, -7.0)).norm() < 8 * rounding);
+}
+
 TEST_CASE("shear on both edges of an annulus is in balance and has the torque of the surface", "[fast]") {
   const Vector<2> zero = Vector<2>::Zero();
   auto description = scene_of(Annulus<2>{zero, 2.0, 5.0}, PolarArrangement{6, 18});
