@@ -16,9 +16,10 @@ inline constexpr int noise_runs = 16;
 /// Of the growth of a run from the theory's wave, per step. What is left after extrapolation is the square of
 /// displacements of 1e-6 Δp, and the rounding of positions, 1e-15, beside them.
 inline constexpr double seeded_tolerance = 1e-8;
-/// Of the mean over the runs from noise: so many standard errors of it, unless the runs agree better among each other
-/// than slower waves, a few 1e-6 a step, let them agree with the fastest; and growth_tolerance of the growth.
-inline constexpr double noise_standard_errors = 3.0, noise_floor = 1e-5;
+/// Of the mean over the runs from noise: so many standard errors of it, and growth_tolerance of the growth. Runs end in
+/// one wave and round alike, so that they may agree better among each other than with theory: what rounding of
+/// positions, 2e-16 Δp, does beside displacements of 1e-7 Δp and less is a part of 1e-9 a step.
+inline constexpr double noise_standard_errors = 3.0, noise_floor = 1e-9;
 /// Growth of the theory below which a state counts as stable: roundings of eigenvalues on the unit circle.
 inline constexpr double no_growth = 1e-7;
 
@@ -30,7 +31,7 @@ struct GrowthCase {
   double theory;       ///< ln of the largest spectral radius over the wave vectors that the patch admits, or at one
   double seeded;       ///< of the run that starts from the theory's wave, extrapolated to no amplitude
   bool has_noise;      ///< not where a wave is meant that is not the fastest
-  double noise_mean;   ///< of the runs from noise, each the second of two: it starts from the fastest mode of the first
+  double noise_mean;   ///< of noise_growth
   double noise_error;  ///< standard error of that mean
   int growing;         ///< of those runs
 

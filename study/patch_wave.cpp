@@ -17,6 +17,23 @@ constexpr double displacement = 1e-6;  ///< in Δp
 constexpr double e_foldings = 2.0;
 constexpr double fewest_steps = 10.0, most_steps = 20000.0;
 
+/// From two amplitudes, the error being of first order, to none.
+template <class GrowthAt>
+double extrapolated(const GrowthAt& growth_at, double amplitude) {
+  return 2.0 * growth_at(0.5 * amplitude) - growth_at(amplitude);
+}
+
+/// Steps in which a departure grows by `e_foldings`.
+int steps_of_growth(double growth_per_step) {
+  const double per_step = std::max(std::abs(growth_per_step), 1.0 / most_steps);
+  return static_cast<int>(std::clamp(std::ceil(e_foldings / per_step), fewest_steps, most_steps));
+}
+
+/// Of the largest amplitude of a patch, where growth from noise is measured.
+constexpr double measured_share = 0.1;
+/// How often a run from noise is scaled back, and for how many times two e-foldings it is kept at either amplitude.
+constexpr long scalings = 400, settling = 10;
+
 /// e^{ik·x} of every particle.
 template <int Dim>
 Eigen::VectorXcd phases(const PatchWave<Dim>& wave, const Body<Dim>& patch) {
@@ -70,8 +87,7 @@ template <int Dim>
 double seeded_growth(const PatchWave<Dim>& wave, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
                      double time_step) {
   const auto factors = phases(wave, periodic_patch(problem, cells));
-  const double per_step = std::max(std::abs(wave.growth_per_step()), 1.0 / most_steps);
-  const int steps = static_cast<int>(std::clamp(std::ceil(e_foldings / per_step), fewest_steps, most_steps));
+  const int steps = steps_of_growth(wave.growth_per_step());
   PerturbedPatch<Dim> patch(problem, cells);
   const Eigen::VectorXd start =
       departure_of(wave, problem, cells) * problem.lattice.spacing() / wave.shape.template head<Dim>().norm();
@@ -81,7 +97,36 @@ double seeded_growth(const PatchWave<Dim>& wave, const Problem<Dim>& problem, co
     patch.advance(departure, time_step, steps);
     return std::log(std::abs(amplitude_of(wave, factors, departure) / before)) / steps;
   };
-  return 2.0 * growth_at(0.5 * displacement) - growth_at(displacement);
+  return extrapolated(growth_at, displacement);
+}
+
+template <int Dim>
+double noise_growth(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, unsigned noise_seed, double time_step,
+                    long steps) {
+  PerturbedPatch<Dim> patch(problem, cells);
+  double growth_per_step = 0.0;
+  const auto run = [&](Eigen::VectorXd& departure, double amplitude, long end) {
+    const int stride = static_cast<int>(std::max(1L, end / scalings));
+    departure *= amplitude / patch.amplitude(departure);
+    for (long step = 0; step < end; step += stride) {
+      patch.advance(departure, time_step, stride);
+      const double factor = patch.amplitude(departure) / amplitude;
+      growth_per_step = std::log(factor) / stride;
+      departure /= factor;
+    }
+  };
+  const double largest = measured_share * patch.largest_amplitude();
+  Eigen::VectorXd fastest = noise_departure(patch, noise_seed);
+  run(fastest, largest, steps);
+  const int measured = steps_of_growth(growth_per_step);
+  return extrapolated(
+      [&](double amplitude) {
+        Eigen::VectorXd departure = fastest;
+        run(departure, amplitude, settling * measured);  // what its size adds to its shape belongs to the size
+        patch.advance(departure, time_step, measured);
+        return std::log(patch.amplitude(departure) / amplitude) / measured;
+      },
+      largest);
 }
 
 template PatchRadius<1> largest_radius(const Problem<1>&, const LatticeIndex<1>&, double);
@@ -89,15 +134,18 @@ template PatchWave<1> fastest_wave(const Problem<1>&, const Vector<1>&, double);
 template PatchWave<1> fastest_wave(const Problem<1>&, const LatticeIndex<1>&, double);
 template Eigen::VectorXd departure_of(const PatchWave<1>&, const Problem<1>&, const LatticeIndex<1>&);
 template double seeded_growth(const PatchWave<1>&, const Problem<1>&, const LatticeIndex<1>&, double);
+template double noise_growth(const Problem<1>&, const LatticeIndex<1>&, unsigned, double, long);
 template PatchRadius<2> largest_radius(const Problem<2>&, const LatticeIndex<2>&, double);
 template PatchWave<2> fastest_wave(const Problem<2>&, const Vector<2>&, double);
 template PatchWave<2> fastest_wave(const Problem<2>&, const LatticeIndex<2>&, double);
 template Eigen::VectorXd departure_of(const PatchWave<2>&, const Problem<2>&, const LatticeIndex<2>&);
 template double seeded_growth(const PatchWave<2>&, const Problem<2>&, const LatticeIndex<2>&, double);
+template double noise_growth(const Problem<2>&, const LatticeIndex<2>&, unsigned, double, long);
 template PatchRadius<3> largest_radius(const Problem<3>&, const LatticeIndex<3>&, double);
 template PatchWave<3> fastest_wave(const Problem<3>&, const Vector<3>&, double);
 template PatchWave<3> fastest_wave(const Problem<3>&, const LatticeIndex<3>&, double);
 template Eigen::VectorXd departure_of(const PatchWave<3>&, const Problem<3>&, const LatticeIndex<3>&);
 template double seeded_growth(const PatchWave<3>&, const Problem<3>&, const LatticeIndex<3>&, double);
+template double noise_growth(const Problem<3>&, const LatticeIndex<3>&, unsigned, double, long);
 
 }  // namespace sphstab::study

@@ -47,4 +47,12 @@ template <int Dim>
 double seeded_growth(const PatchWave<Dim>& wave, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
                      double time_step);
 
+/// The growth per step of the fastest wave that noise in the velocities holds. The run is scaled back to a small
+/// amplitude again and again for so many steps, until slower waves are left far behind; then the growth of its
+/// amplitude is measured over two e-foldings from a tenth of the largest one and from half of that, extrapolated to
+/// none. What is left is the rounding of positions. Tested in tests/ladder/test_updated_growth.cpp.
+template <int Dim>
+double noise_growth(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, unsigned noise_seed, double time_step,
+                    long steps);
+
 }  // namespace sphstab::study
