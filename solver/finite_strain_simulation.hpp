@@ -26,8 +26,8 @@ namespace sphstab::solver {
 template <int Dim, class Scalar = double>
 class FiniteStrainSimulation final : public TotalLagrangian<Dim, Scalar> {
  public:
-  /// Throws InvalidInput (`scheme`, `elastic_law`, `plane`) for what is not finite strain, and (`body`) naming the first
-  /// particle whose neighbours lie in a plane, in a line or nowhere, so that its N does not exist.
+  /// Throws InvalidInput (`scheme`, `elastic_law`, `plane`) for what is not finite strain, and (`body`) naming the
+  /// first particle whose neighbours lie in a plane, in a line or nowhere, so that its N does not exist.
   FiniteStrainSimulation(const Problem<Dim>& problem, const Body<Dim>& body);
 
   /// ρ0 V of particle a, a mass (per thickness in 2-D). With these masses a free body keeps its momentum and its
@@ -44,27 +44,30 @@ class FiniteStrainSimulation final : public TotalLagrangian<Dim, Scalar> {
   /// Von Mises stress of particle a with the stress out of the modelled directions counted (solver/finite_strain.hpp).
   Scalar von_mises_stress(const State<Dim, Scalar>& state, int a) const override;
 
-  /// Σ_a V_a W(F_a), base state included, an energy (per thickness in 2-D): the potential of the forces of `tl-pk1`. The
-  /// forces of `tl-corotated` have none; its W is that of Saint Venant-Kirchhoff, a measure of strain.
+  /// Σ_a V_a W(F_a), base state included, an energy (per thickness in 2-D): the potential of the forces of `tl-pk1`.
+  /// The forces of `tl-corotated` have none; its W is that of Saint Venant-Kirchhoff, a measure of strain.
   Scalar strain_energy(const State<Dim, Scalar>& state) const override;
 
   /// ½ Σ_a V_a (λ tr²e + 2 G e : e), e = sym(F0ᵀ Σ_b V_b (s_b − s_a) ⊗ N_a ∇_a W_ab): an energy that is a norm of a
   /// small perturbation s of the base state, and zero for its translations, rotations (to first order) and zero-energy
   /// modes. Neither the stress of the base state nor its effect on stiffness counts.
-  Scalar perturbation_energy(const State<Dim, Scalar>& state) const;
+  Scalar perturbation_energy(const State<Dim, Scalar>& state) const override;
 
  private:
   using Base = TotalLagrangian<Dim, Scalar>;
+  using Base::first_, Base::g_, Base::neighbour_, Base::particles, Base::substance;
 
   Tensor<Dim, Scalar> perturbation_gradient(const Field<Dim, Scalar>& displacement, int a) const;
-  Tensor<Dim, Scalar> deformation_gradient(const Field<Dim, Scalar>& displacement, int a) const;
+  Tensor<3, Scalar> stress_in_space(const State<Dim, Scalar>& state, int a) const;
+  template <StressMeasure measure>
+  void store_stresses(const Field<Dim, Scalar>& displacement);
   void internal_accelerations(const Field<Dim, Scalar>& displacement, Field<Dim, Scalar>& acceleration) override;
 
   StressMeasure measure_;
-  Tensor<Dim, Real<Scalar>> base_gradient_;             ///< F0
-  std::vector<double> volume_;                          ///< V
-  std::vector<Tensor<Dim, Real<Scalar>>> correction_;   ///< N
-  std::vector<Tensor<Dim, Scalar>> corrected_stress_;   ///< P N of the last evaluation
+  Tensor<Dim, Real<Scalar>> base_gradient_;            ///< F0
+  std::vector<double> volume_;                         ///< V
+  std::vector<Tensor<Dim, Real<Scalar>>> correction_;  ///< N
+  std::vector<Tensor<Dim, Scalar>> corrected_stress_;  ///< P N of the last evaluation
 };
 
 extern template class FiniteStrainSimulation<1, double>;

@@ -43,8 +43,12 @@ class TotalLagrangian {
   /// Von Mises stress of particle a with the stress out of the modelled directions counted.
   virtual Scalar von_mises_stress(const State<Dim, Scalar>& state, int a) const = 0;
 
-  /// The energy of strain, an energy (per thickness in 2-D).
+  /// The energy of strain (per thickness in 2-D).
   virtual Scalar strain_energy(const State<Dim, Scalar>& state) const = 0;
+
+  /// An energy (per thickness in 2-D) that is quadratic in a small perturbation s of the base state and zero for rigid
+  /// motion and zero-energy modes: what is to grow when a run is said to.
+  virtual Scalar perturbation_energy(const State<Dim, Scalar>& state) const = 0;
 
   /// ½ Σ_a m_a v_a² with the masses `inertia`.
   Scalar kinetic_energy(const State<Dim, Scalar>& state) const;
@@ -55,7 +59,7 @@ class TotalLagrangian {
  protected:
   struct Substance {
     LameConstants lame;
-    double density;
+    double inverse_density;
   };
 
   TotalLagrangian(const Problem<Dim>& problem, const Body<Dim>& body);
@@ -87,14 +91,31 @@ class TotalLagrangian {
   long right_hand_sides_ = 0;
 };
 
+/// The running solver of the problem's formulation. Throws InvalidInput (`scheme`) for one that is not total
+/// Lagrangian.
+template <int Dim, class Scalar = double>
+std::unique_ptr<TotalLagrangian<Dim, Scalar>> make_simulation(const Problem<Dim>& problem, const Body<Dim>& body);
+
 extern template class TotalLagrangian<1, double>;
+extern template std::unique_ptr<TotalLagrangian<1, double>> make_simulation(const Problem<1>&, const Body<1>&);
 extern template class TotalLagrangian<1, float>;
+extern template std::unique_ptr<TotalLagrangian<1, float>> make_simulation(const Problem<1>&, const Body<1>&);
 extern template class TotalLagrangian<1, std::complex<double>>;
+extern template std::unique_ptr<TotalLagrangian<1, std::complex<double>>> make_simulation(const Problem<1>&,
+                                                                                          const Body<1>&);
 extern template class TotalLagrangian<2, double>;
+extern template std::unique_ptr<TotalLagrangian<2, double>> make_simulation(const Problem<2>&, const Body<2>&);
 extern template class TotalLagrangian<2, float>;
+extern template std::unique_ptr<TotalLagrangian<2, float>> make_simulation(const Problem<2>&, const Body<2>&);
 extern template class TotalLagrangian<2, std::complex<double>>;
+extern template std::unique_ptr<TotalLagrangian<2, std::complex<double>>> make_simulation(const Problem<2>&,
+                                                                                          const Body<2>&);
 extern template class TotalLagrangian<3, double>;
+extern template std::unique_ptr<TotalLagrangian<3, double>> make_simulation(const Problem<3>&, const Body<3>&);
 extern template class TotalLagrangian<3, float>;
+extern template std::unique_ptr<TotalLagrangian<3, float>> make_simulation(const Problem<3>&, const Body<3>&);
 extern template class TotalLagrangian<3, std::complex<double>>;
+extern template std::unique_ptr<TotalLagrangian<3, std::complex<double>>> make_simulation(const Problem<3>&,
+                                                                                          const Body<3>&);
 
 }  // namespace sphstab::solver
