@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/simulation.hpp"
+#include "solver/total_lagrangian.hpp"
 
 /// One leapfrog step on a periodic square patch with 20 neighbours, and beside it a triad over arrays of the size that
 /// a step reads, so that figures of different machines compare as ratios. Both report nanoseconds of CPU time per
@@ -24,22 +24,27 @@ void report_per_particle(benchmark::State& timing, double particles) {
   timing.counters["per_particle"] = Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
+const Scheme linear{};
+const Scheme equation_of_state{.momentum_density = MomentumDensity::equation_of_state};
+const Scheme corotated{.formulation = Formulation::total_lagrangian_corotated};
+const Scheme pk1{.formulation = Formulation::total_lagrangian_pk1};
+const Scheme neo_hookean{.formulation = Formulation::total_lagrangian_pk1, .elastic_law = ElasticLaw::neo_hookean};
+
 /// side² particles, moving as a standing wave far below the critical step.
-template <class Scalar, MomentumDensity density>
+template <class Scalar, const Scheme& scheme>
 void step(benchmark::State& timing) {
   const int side = static_cast<int>(timing.range(0));
-  Problem<2> problem{.lattice = {LatticeKind::square, spacing},
-                     .kernel = {KernelFamily::cubic_spline, smoothing_length},
-                     .material = Material::from_young_modulus(1.0, 1.0, 0.3),
-                     .scheme = {}};
-  problem.scheme.momentum_density = density;
+  const Problem<2> problem{.lattice = {LatticeKind::square, spacing},
+                           .kernel = {KernelFamily::cubic_spline, smoothing_length},
+                           .material = Material::from_young_modulus(1.0, 1.0, 0.3),
+                           .scheme = scheme};
   const auto body = periodic_patch(problem, LatticeIndex<2>(side, side));
-  solver::Simulation<2, Scalar> simulation(problem, body);
+  const auto simulation = solver::make_simulation<2, Scalar>(problem, body);
   solver::State<2, Scalar> state(body.size());
   for (int a = 0; a < body.size(); ++a)
     state.velocity[a].setConstant(
         static_cast<Scalar>(1e-3 * std::sin(2.0 * std::numbers::pi / side * body.position[a].sum())));
-  for (auto _ : timing) simulation.advance(state, 0.1);
+  for (auto _ : timing) simulation->advance(state, 0.1);
   benchmark::DoNotOptimize(state.displacement.data());
   report_per_particle(timing, body.size());
 }
@@ -62,9 +67,14 @@ void sizes(benchmark::internal::Benchmark* bench) {
 }
 
 BENCHMARK(triad)->Apply(sizes);
-BENCHMARK(step<double, MomentumDensity::frozen>)->Apply(sizes);
-BENCHMARK(step<double, MomentumDensity::equation_of_state>)->Apply(sizes);
-BENCHMARK(step<float, MomentumDensity::frozen>)->Apply(sizes);
+BENCHMARK(step<double, linear>)->Apply(sizes);
+BENCHMARK(step<double, equation_of_state>)->Apply(sizes);
+BENCHMARK(step<double, corotated>)->Apply(sizes);
+BENCHMARK(step<double, pk1>)->Apply(sizes);
+BENCHMARK(step<double, neo_hookean>)->Apply(sizes);
+BENCHMARK(step<float, linear>)->Apply(sizes);
+BENCHMARK(step<float, corotated>)->Apply(sizes);
+BENCHMARK(step<float, pk1>)->Apply(sizes);
 
 }  // namespace
 

@@ -71,13 +71,13 @@ Vector<Dim, Complex> bloch_amplitude(const Body<Dim>& body, const Vector<Dim>& w
 template <int Dim>
 Tensor<Dim, Complex> bloch_acceleration_matrix(const Problem<Dim>& problem, const Body<Dim>& patch,
                                                const Vector<Dim>& wave_vector) {
-  DerivativeSimulation<Dim> simulation(problem, patch);
+  const auto simulation = make_simulation<Dim, Complex>(problem, patch);
   Tensor<Dim, Complex> matrix = Tensor<Dim, Complex>::Zero();
   for (int column = 0; column < Dim; ++column) {
     const auto wave = unit_wave(patch, wave_vector, column);
     for (const auto& [part, unit] : {std::pair(Part::real, Complex(1.0)), std::pair(Part::imaginary, i_unit)})
       matrix.col(column) +=
-          unit * bloch_amplitude(patch, wave_vector, acceleration_derivative(simulation, part_of<Dim>(wave, part)));
+          unit * bloch_amplitude(patch, wave_vector, acceleration_derivative(*simulation, part_of<Dim>(wave, part)));
   }
   return matrix;
 }
@@ -85,14 +85,14 @@ Tensor<Dim, Complex> bloch_acceleration_matrix(const Problem<Dim>& problem, cons
 template <int Dim>
 BlochStepMatrix<Dim> bloch_step_matrix(const Problem<Dim>& problem, const Body<Dim>& patch,
                                        const Vector<Dim>& wave_vector, double time_step) {
-  DerivativeSimulation<Dim> simulation(problem, patch);
+  const auto simulation = make_simulation<Dim, Complex>(problem, patch);
   BlochStepMatrix<Dim> matrix = BlochStepMatrix<Dim>::Zero();
   for (int column = 0; column < 2 * Dim; ++column) {
     const auto wave = unit_wave(patch, wave_vector, column % Dim);
     for (const auto& [part, unit] : {std::pair(Part::real, Complex(1.0)), std::pair(Part::imaginary, i_unit)}) {
       State<Dim> direction(patch.size());
       (column < Dim ? direction.velocity : direction.displacement) = part_of<Dim>(wave, part);
-      const State<Dim> image = step_derivative(simulation, direction, time_step);
+      const State<Dim> image = step_derivative(*simulation, direction, time_step);
       matrix.col(column).template head<Dim>() += unit * bloch_amplitude(patch, wave_vector, image.velocity);
       matrix.col(column).template tail<Dim>() += unit * bloch_amplitude(patch, wave_vector, image.displacement);
     }

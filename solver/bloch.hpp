@@ -3,7 +3,9 @@
 
 #include <complex>
 
-#include "solver/simulation.hpp"
+#include "model/body.hpp"
+#include "model/problem.hpp"
+#include "solver/state.hpp"
 
 /// Bloch waves y_a = ŷ e^{ik·x_a} on a periodic patch, and what the running solver does to them. On a lattice a step
 /// maps the Bloch waves of one wave vector to themselves, so a small complex matrix says it all.
@@ -20,7 +22,7 @@ template <int Dim, class Scalar>
 Vector<Dim, std::complex<double>> bloch_amplitude(const Body<Dim>& body, const Vector<Dim>& wave_vector,
                                                   const Field<Dim, Scalar>& field);
 
-/// A matrix that maps [v̂, ŝ] (Zhang's u, v, R, S) to [v̂, ŝ].
+/// A matrix that maps [v̂, ŝ] (Zhang's u, v, R, S) to [v̂, ŝ]. Theory orders finite strain [ŝ, v̂].
 template <int Dim>
 using BlochStepMatrix = Eigen::Matrix<std::complex<double>, 2 * Dim, 2 * Dim>;
 

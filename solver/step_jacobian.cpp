@@ -57,13 +57,13 @@ Field<Dim> acceleration_derivative(DerivativeSimulation<Dim>& simulation, const 
 
 template <int Dim>
 Eigen::MatrixXd step_jacobian(const Problem<Dim>& problem, const Body<Dim>& body, double time_step) {
-  DerivativeSimulation<Dim> simulation(problem, body);
+  const auto simulation = make_simulation<Dim, std::complex<double>>(problem, body);
   const int size = 2 * Dim * body.size();
   Eigen::MatrixXd jacobian(size, size);
   for (int column = 0; column < size; ++column) {
     State<Dim> direction(body.size());
     component<Dim>(direction, column / (2 * Dim), column % (2 * Dim)) = 1.0;
-    const State<Dim> image = step_derivative(simulation, direction, time_step);
+    const State<Dim> image = step_derivative(*simulation, direction, time_step);
     for (int row = 0; row < size; ++row)
       jacobian(row, column) = component<Dim>(image, row / (2 * Dim), row % (2 * Dim));
   }

@@ -4,16 +4,17 @@
 #include <Eigen/Core>
 #include <complex>
 
-#include "solver/simulation.hpp"
+#include "solver/total_lagrangian.hpp"
 
 /// Derivatives of the running solver at its base state (s = 0, v = 0) by complex step: Im F(iε d)/ε has no cancellation
 /// and an error of order ε², so they are exact to rounding. The imaginary unit carries the derivative and nothing else.
 /// Checked against differences of real steps in tests/solver/test_step_jacobian.cpp.
 namespace sphstab::solver {
 
-/// A simulation whose scalars carry a derivative in their imaginary part.
+/// A simulation of any total-Lagrangian scheme (make_simulation) whose scalars carry a derivative in their imaginary
+/// part.
 template <int Dim>
-using DerivativeSimulation = Simulation<Dim, std::complex<double>>;
+using DerivativeSimulation = TotalLagrangian<Dim, std::complex<double>>;
 
 /// Derivative of one step of length `time_step` along a real direction (δv, δs).
 template <int Dim>
@@ -24,7 +25,8 @@ template <int Dim>
 Field<Dim> acceleration_derivative(DerivativeSimulation<Dim>& simulation, const Field<Dim>& direction);
 
 /// The Jacobian of one step, 2 Dim N × 2 Dim N. Row and column 2 Dim a + i hold v_i of particle a, 2 Dim a + Dim + i
-/// its s_i. Dense, one step a column: for small patches.
+/// its s_i, for every scheme; theory orders finite strain [s, v], and whoever compares reorders. Dense,
+/// one step a column: for small patches.
 template <int Dim>
 Eigen::MatrixXd step_jacobian(const Problem<Dim>& problem, const Body<Dim>& body, double time_step);
 

@@ -9,6 +9,12 @@
 
 namespace sphstab::solver {
 
+/// sym A.
+template <class Scalar, int Dim>
+Tensor<Dim, Scalar> symmetric_part(const Tensor<Dim, Scalar>& A) {
+  return (A + A.transpose()) / Real<Scalar>(2);
+}
+
 /// σ = λ tr(ε) I + 2 G ε, a pressure, positive in tension: Zhang et al., Eqs. 3 and 8. Their G is 2 × `shear_modulus`
 /// and their p has γ = λ of the plane before the trace over the modelled dimensions (errata.md Z10).
 template <class Scalar, int Dim>
