@@ -179,9 +179,9 @@ template <class Type>
 std::optional<Type> Case::value(std::string_view key) const {
   if (const auto found = values_.find(key); found != values_.end()) {
     if (const auto* held = std::get_if<Type>(&found->second)) return *held;
-    if (const auto* word = std::get_if<std::string>(&found->second))
-      throw InvalidInput(fmt::format("{}: '{}' is for run; here a number is needed", key, *word));
-    throw InvalidInput(fmt::format("{}: a word is needed here", key));
+    if constexpr (std::is_same_v<Type, std::string>) return std::nullopt;  // a number where a word could be
+    throw InvalidInput(fmt::format("{}: '{}' is for run; here a number is needed", key,
+                                   std::get<std::string>(found->second)));
   }
   const Key& entry = find_key(key);
   if (entry.default_value.empty()) return std::nullopt;

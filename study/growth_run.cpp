@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/simulation.hpp"
+#include "solver/total_lagrangian.hpp"
 #include "study/noise.hpp"
 
 namespace sphstab::study {
@@ -38,16 +38,19 @@ double energy_of_unit_strain(const Problem<Dim>& problem, const Body<Dim>& body)
   return energy;
 }
 
-/// The total-Lagrangian solver. A departure is all displacements, then all velocities.
+bool is_linear(const Scheme& scheme) {
+  return !is_finite_strain(scheme.formulation) && scheme.momentum_density == MomentumDensity::frozen;
+}
+
+/// A total-Lagrangian solver. A departure is all displacements, then all velocities.
 template <int Dim>
 class PerturbedBody : public PerturbedSolver {
  public:
   PerturbedBody(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& equilibrium)
-      : simulation_(problem, body),
+      : simulation_(solver::make_simulation(problem, body)),
         energy_scale_(energy_of_unit_strain(problem, body)),
-        largest_amplitude_(problem.scheme.momentum_density == MomentumDensity::frozen
-                               ? std::numeric_limits<double>::infinity()
-                               : largest_nonlinear_strain),
+        largest_amplitude_(is_linear(problem.scheme) ? std::numeric_limits<double>::infinity()
+                                                     : largest_nonlinear_strain),
         equilibrium_(equilibrium),
         state_(body.size()) {}
 
@@ -55,7 +58,7 @@ class PerturbedBody : public PerturbedSolver {
   Eigen::VectorXd departure(const Field<Dim>& displacement, double smoothing_length) {
     state_ = State<Dim>(state_.particles());
     state_.displacement = displacement;
-    simulation_.hold(state_);
+    simulation_->hold(state_);
     double square = 0.0;
     for (const auto& s : state_.displacement) square += s.squaredNorm() / static_cast<double>(state_.particles());
     const Eigen::VectorXd departure = flat();
@@ -68,14 +71,14 @@ class PerturbedBody : public PerturbedSolver {
   void advance(Eigen::VectorXd& departure, double time_step, int steps) override {
     set(departure);
     for (int a = 0; a < state_.particles(); ++a) state_.displacement[a] += equilibrium_[a];
-    simulation_.advance(state_, time_step, steps);
+    simulation_->advance(state_, time_step, steps);
     for (int a = 0; a < state_.particles(); ++a) state_.displacement[a] -= equilibrium_[a];
     departure = flat();
   }
 
   double amplitude(const Eigen::VectorXd& departure) override {
     set(departure);
-    return std::sqrt(simulation_.strain_energy(state_) / energy_scale_);
+    return std::sqrt(simulation_->perturbation_energy(state_) / energy_scale_);
   }
 
   double seed_amplitude(double) const override { return seed_strain; }
@@ -98,7 +101,7 @@ class PerturbedBody : public PerturbedSolver {
     }
   }
 
-  solver::Simulation<Dim> simulation_;
+  std::unique_ptr<solver::TotalLagrangian<Dim>> simulation_;
   double energy_scale_;  ///< of a strain of 1
   double largest_amplitude_;
   Field<Dim> equilibrium_;

@@ -36,14 +36,22 @@ struct Relaxation {
 /// motion, the second what creeps on when all else has come to rest, such as nearly zero-energy modes. The error of the
 /// displacement is estimated as that of the residual in the mode with the smallest quotient found.
 ///
+/// In finite strain and `ul` the velocity tells nothing, and `slowest` is that of the displacement alone; `ul`, which
+/// has no damping of its own, has its velocities reduced every few steps. A run ends, not converged, when `gives_up`
+/// says so of the displacements.
+///
 /// In directions in which no particle is clamped, a mean load only makes the body fall; it is left out, and the mass
 /// centre stays where it is. Throws InvalidInput (`time_step`, `tolerance`) unless both are positive. Tested in
 /// tests/study/test_relaxation.cpp.
 template <int Dim>
-Relaxation<Dim> relax(const Problem<Dim>& problem, const Body<Dim>& body, const RelaxationOptions& options);
+Relaxation<Dim> relax(const Problem<Dim>& problem, const Body<Dim>& body, const RelaxationOptions& options,
+                      const std::function<bool(const solver::Field<Dim>&)>& gives_up = nullptr);
 
-extern template Relaxation<1> relax(const Problem<1>&, const Body<1>&, const RelaxationOptions&);
-extern template Relaxation<2> relax(const Problem<2>&, const Body<2>&, const RelaxationOptions&);
-extern template Relaxation<3> relax(const Problem<3>&, const Body<3>&, const RelaxationOptions&);
+extern template Relaxation<1> relax(const Problem<1>&, const Body<1>&, const RelaxationOptions&,
+                                    const std::function<bool(const solver::Field<1>&)>&);
+extern template Relaxation<2> relax(const Problem<2>&, const Body<2>&, const RelaxationOptions&,
+                                    const std::function<bool(const solver::Field<2>&)>&);
+extern template Relaxation<3> relax(const Problem<3>&, const Body<3>&, const RelaxationOptions&,
+                                    const std::function<bool(const solver::Field<3>&)>&);
 
 }  // namespace sphstab::study

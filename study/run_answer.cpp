@@ -38,7 +38,7 @@ struct StepTheory {
 };
 
 template <int Dim>
-StepTheory linear_theory(const Scene<Dim>& scene) {
+StepTheory lagrangian_theory(const Scene<Dim>& scene) {
   if (!scene.periodic_cells) return {theory_limit<Dim>(scene.problem, scene.body).critical_time_step, "body spectrum"};
   return {theory_limit<Dim>(scene.problem, PeriodicPatch<Dim>{*scene.periodic_cells}).critical_time_step,
           "periodic patch"};
@@ -103,9 +103,9 @@ template <int Dim>
 StepTheory step_theory(const Scene<Dim>& scene) {
   switch (scene.problem.scheme.formulation) {
     case Formulation::total_lagrangian_linear:
-      return linear_theory(scene);
     case Formulation::total_lagrangian_corotated:
     case Formulation::total_lagrangian_pk1:
+      return lagrangian_theory(scene);
     case Formulation::updated_lagrangian:
       return updated_theory(scene);
   }

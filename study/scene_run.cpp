@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
-#include "solver/simulation.hpp"
+#include "solver/total_lagrangian.hpp"
 #include "solver/updated_simulation.hpp"
 #include "study/p_wave_speed.hpp"
 
@@ -45,36 +46,38 @@ struct LostNumber {
   std::optional<std::string_view> term = std::nullopt;
 };
 
-/// A scene of `tl-linear` as it moves. This, and the class of the same members below, is what a run knows of a
-/// formulation.
+/// A scene of a total-Lagrangian scheme as it moves. This, and the class of the same members below, is what a run knows
+/// of a formulation.
 template <int Dim>
-class LinearMotion {
+class LagrangianMotion {
  public:
   using State = solver::State<Dim>;
 
-  explicit LinearMotion(const Scene<Dim>& scene)
-      : simulation_(scene.problem, scene.body), state_(scene.body.size()), force_at_start_(accelerations()) {
+  explicit LagrangianMotion(const Scene<Dim>& scene)
+      : simulation_(solver::make_simulation(scene.problem, scene.body)),
+        state_(scene.body.size()),
+        force_at_start_(accelerations()) {
     if (!scene.velocity.empty()) state_.velocity = scene.velocity;
-    simulation_.hold(state_);
+    simulation_->hold(state_);
   }
 
   int particles() const { return state_.particles(); }
-  double mass(int a) const { return simulation_.inertia(a); }  ///< with which energy and momentum are kept
+  double mass(int a) const { return simulation_->inertia(a); }  ///< with which energy and momentum are kept
 
   const State& state() const { return state_; }
   void go_back_to(const State& state) { state_ = state; }
-  void advance(double time_step, long steps) { simulation_.advance(state_, time_step, steps); }
+  void advance(double time_step, long steps) { simulation_->advance(state_, time_step, steps); }
 
   const Vector<Dim>& displacement(int a) const { return state_.displacement[a]; }
   const Vector<Dim>& velocity(int a) const { return state_.velocity[a]; }
-  Tensor<Dim> stress(int a) const { return simulation_.stress(state_, a); }
-  double von_mises_stress(int a) const { return simulation_.von_mises_stress(state_, a); }
+  Tensor<Dim> stress(int a) const { return simulation_->stress(state_, a); }
+  double von_mises_stress(int a) const { return simulation_->von_mises_stress(state_, a); }
   std::vector<double> density() const { return {}; }
-  double strain_energy() const { return simulation_.strain_energy(state_); }
+  double strain_energy() const { return simulation_->strain_energy(state_); }
 
   Field<Dim> accelerations() {
     Field<Dim> force(particles());
-    simulation_.accelerations(state_, force);
+    simulation_->accelerations(state_, force);
     return force;
   }
   /// Of loads and base state, per mass: the forces that do work whatever moves.
@@ -90,11 +93,11 @@ class LinearMotion {
   LostNumber failure(const State&, double) const { return *lost_number(); }
 
   std::vector<int> lost_particles() const { return {}; }
-  long right_hand_sides() const { return simulation_.right_hand_sides(); }
+  long right_hand_sides() const { return simulation_->right_hand_sides(); }
   std::optional<long> list_builds() const { return std::nullopt; }
 
  private:
-  solver::Simulation<Dim> simulation_;
+  std::unique_ptr<solver::TotalLagrangian<Dim>> simulation_;
   State state_;
   Field<Dim> force_at_start_;
 };
@@ -394,9 +397,9 @@ SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim
         fmt::format("duration: {} takes more than {} steps of {}", options.duration, most_steps, options.time_step));
   switch (scene.problem.scheme.formulation) {
     case Formulation::total_lagrangian_linear:
-      return Run<Dim, LinearMotion<Dim>>(scene, options).result();
     case Formulation::total_lagrangian_corotated:
     case Formulation::total_lagrangian_pk1:
+      return Run<Dim, LagrangianMotion<Dim>>(scene, options).result();
     case Formulation::updated_lagrangian:
       return Run<Dim, UpdatedMotion<Dim>>(scene, options).result();
   }

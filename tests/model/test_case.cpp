@@ -257,7 +257,7 @@ TEST_CASE("a time step is a number, or where a run asks for it auto", "[fast]") 
   CHECK_THROWS_WITH(input.set("time_step", std::string("soon")), "time_step: is not a number");
   input.set("time_step", parse_value(find_key("time_step"), "0.25"));
   CHECK(input.number("time_step") == 0.25);
-  CHECK_THROWS_WITH(input.word("time_step"), "time_step: a word is needed here");
+  CHECK_FALSE(input.word("time_step"));
 }
 
 TEST_CASE("keys of another scheme are refused unless they switch nothing on", "[fast]") {
