@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "analysis/acoustic_form.hpp"
+#include "analysis/finite_strain.hpp"
 #include "analysis/gradient_symbol.hpp"
 #include "analysis/mode_step.hpp"
 #include "analysis/step_matrix.hpp"
@@ -76,18 +77,36 @@ ModeSpectrum updated_spectrum(const Problem<Dim>& problem, const Vector<Dim>& wa
   return spectrum;
 }
 
+/// The spectrum of a total-Lagrangian mode: the pair of each ω², all real.
+template <int Dim>
+ModeSpectrum spectrum_of(const Problem<Dim>& problem, const Vector<Dim>& omega_squared, double time_step,
+                         bool lacks_eigenvector) {
+  ModeSpectrum spectrum{{}, 0.0, true};
+  for (const double value : omega_squared) {
+    const ModeStep step(problem.integrator, problem.scheme.damping, value);
+    for (const auto& eigenvalue : step.eigenvalues(time_step)) spectrum.eigenvalues.push_back(eigenvalue);
+    const double radius = step.spectral_radius(time_step);
+    const bool on_circle = radius >= 1.0 - few_roundings;
+    spectrum.spectral_radius = std::max(spectrum.spectral_radius, radius);
+    spectrum.power_bounded = spectrum.power_bounded && radius <= 1.0 + few_roundings && !step.defective(time_step) &&
+                             !(on_circle && lacks_eigenvector);
+  }
+  return spectrum;
+}
+
 }  // namespace
 
 template <int Dim>
 std::vector<std::string> state_names(const Problem<Dim>& problem) {
   std::vector<std::string> names;
-  if (!is_updated(problem.scheme)) {
+  if (problem.scheme.formulation == Formulation::total_lagrangian_linear) {
     add_vector<Dim>("v", names);
     add_vector<Dim>("s", names);
     return names;
   }
   add_vector<Dim>("", names);
   add_vector<Dim>("v", names);
+  if (is_finite_strain(problem.scheme.formulation)) return names;
   add_density_and_stress<Dim>("rho", "S", names);
   if (problem.integrator != Integrator::predictor_corrector_pec) return names;
   add_vector<Dim>("F", names);
@@ -97,7 +116,15 @@ std::vector<std::string> state_names(const Problem<Dim>& problem) {
 
 template <int Dim>
 Tensor<Dim> dynamical_matrix(const Problem<Dim>& problem, const Vector<Dim>& wave_vector) {
-  if (is_updated(problem.scheme)) return UpdatedLagrangian<Dim>(problem)(wave_vector).dynamical_matrix();
+  switch (problem.scheme.formulation) {
+    case Formulation::total_lagrangian_linear:
+      break;
+    case Formulation::total_lagrangian_corotated:
+    case Formulation::total_lagrangian_pk1:
+      return FiniteStrain<Dim>(problem).dynamics(wave_vector).M;
+    case Formulation::updated_lagrangian:
+      return UpdatedLagrangian<Dim>(problem)(wave_vector).dynamical_matrix();
+  }
   const GradientSymbol<Dim> symbol(problem);
   return AcousticForm<Dim>(problem, symbol.consistency()).dynamical_matrix(symbol(wave_vector));
 }
@@ -109,12 +136,13 @@ ComplexMatrix amplification_matrix(const Problem<Dim>& problem, const Vector<Dim
   const Tensor<Dim> M = dynamical_matrix(problem, wave_vector), I = Tensor<Dim>::Identity();
   const double dt = time_step;
   const double a = problem.scheme.damping ? problem.scheme.damping->rate * dt : 0.0, b = 1.0 - 0.5 * a;
+  const int s = is_finite_strain(problem.scheme.formulation) ? 0 : Dim, v = Dim - s;  // where each begins
   Eigen::Matrix<double, 2 * Dim, 2 * Dim> E;
-  const auto fill = [&E](const Tensor<Dim>& vv, const Tensor<Dim>& vs, const Tensor<Dim>& sv, const Tensor<Dim>& ss) {
-    E.template topLeftCorner<Dim, Dim>() = vv;
-    E.template topRightCorner<Dim, Dim>() = vs;
-    E.template bottomLeftCorner<Dim, Dim>() = sv;
-    E.template bottomRightCorner<Dim, Dim>() = ss;
+  const auto fill = [&](const Tensor<Dim>& vv, const Tensor<Dim>& vs, const Tensor<Dim>& sv, const Tensor<Dim>& ss) {
+    E.template block<Dim, Dim>(v, v) = vv;
+    E.template block<Dim, Dim>(v, s) = vs;
+    E.template block<Dim, Dim>(s, v) = sv;
+    E.template block<Dim, Dim>(s, s) = ss;
   };
   switch (problem.integrator) {
     case Integrator::leapfrog:
@@ -134,23 +162,16 @@ ComplexMatrix amplification_matrix(const Problem<Dim>& problem, const Vector<Dim
 template <int Dim>
 ModeSpectrum mode_spectrum(const Problem<Dim>& problem, const Vector<Dim>& wave_vector, double time_step) {
   if (is_updated(problem.scheme)) return updated_spectrum(problem, wave_vector, time_step);
+  if (is_finite_strain(problem.scheme.formulation)) {
+    Vector<Dim> omega_squared = FiniteStrain<Dim>(problem).dynamics(wave_vector).omega_squared().real();
+    return spectrum_of<Dim>(problem, omega_squared.reverse(), time_step, false);
+  }
   const GradientSymbol<Dim> symbol(problem);
   const AcousticForm<Dim> form(problem, symbol.consistency());
   const Vector<Dim> D = symbol.cleaned(wave_vector);
-
-  ModeSpectrum spectrum{{}, 0.0, true};
-  const auto add_branch = [&](double omega_squared) {
-    const ModeStep step(problem.integrator, problem.scheme.damping, omega_squared);
-    for (const auto& eigenvalue : step.eigenvalues(time_step)) spectrum.eigenvalues.push_back(eigenvalue);
-    const double radius = step.spectral_radius(time_step);
-    const bool on_circle = radius >= 1.0 - few_roundings;
-    spectrum.spectral_radius = std::max(spectrum.spectral_radius, radius);
-    spectrum.power_bounded = spectrum.power_bounded && radius <= 1.0 + few_roundings && !step.defective(time_step) &&
-                             !(on_circle && lacks_eigenvector(form, D));
-  };
-  add_branch(form.longitudinal(D));
-  for (int branch = 1; branch < Dim; ++branch) add_branch(form.transverse(D));
-  return spectrum;
+  Vector<Dim> omega_squared = Vector<Dim>::Constant(form.transverse(D));
+  omega_squared[0] = form.longitudinal(D);
+  return spectrum_of<Dim>(problem, omega_squared, time_step, lacks_eigenvector(form, D));
 }
 
 template std::vector<std::string> state_names(const Problem<1>&);

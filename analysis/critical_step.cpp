@@ -11,11 +11,14 @@
 #include <numbers>
 
 #include "analysis/acoustic_form.hpp"
+#include "analysis/finite_strain.hpp"
 #include "analysis/gradient_symbol.hpp"
+#include "analysis/growth.hpp"
 #include "analysis/in_range.hpp"
 #include "analysis/irreducible_domain.hpp"
 #include "analysis/updated_modes.hpp"
 #include "analysis/zone_maximum.hpp"
+#include "analysis/zone_scan.hpp"
 #include "analysis/zone_zeros.hpp"
 #include "model/lattice_index.hpp"
 
@@ -24,6 +27,10 @@ namespace {
 
 /// The roundings of the factors between ω² and Δt.
 constexpr double few_roundings = 8.0 * std::numeric_limits<double>::epsilon();
+/// Those of the moduli of finite strain.
+constexpr double form_rounding = 32.0 * std::numeric_limits<double>::epsilon();
+/// The relative width, of ω², that a search over the zone claims.
+constexpr double search_width = 2e-9;
 
 /// Where a maximum lies is known to the root of its rounding: components of k below this part of it are zero.
 constexpr double smallest_component = 1e-7;
@@ -49,7 +56,7 @@ ZoneMaximum<Dim> scaled(ZoneMaximum<Dim> maximum, double factor) {
 }
 
 template <int Dim>
-FrequencyRange<Dim> range_over(const Problem<Dim>& problem, const std::vector<Vector<Dim>>& wave_vectors) {
+FrequencyRange<Dim> linear_range_over(const Problem<Dim>& problem, const std::vector<Vector<Dim>>& wave_vectors) {
   const GradientSymbol<Dim> symbol(problem);
   const AcousticForm<Dim> form(problem, symbol.consistency());
   FrequencyRange<Dim> range;
@@ -71,9 +78,45 @@ FrequencyRange<Dim> range_over(const Problem<Dim>& problem, const std::vector<Ve
   return range;
 }
 
+/// The modes of `scan`; brackets hold the rounding alone.
+template <int Dim>
+FrequencyRange<Dim> finite_strain_range(const Problem<Dim>& problem, const FiniteStrain<Dim>& scheme,
+                                        const ZoneScan<Dim>& scan) {
+  const GrowthRange<Dim> found = growth_range(problem, scan);
+  const auto extreme = [&](const CriticalMode<Dim>& mode, double omega_squared) {
+    const double rounding = scheme.dynamics(mode.wave_vector).rounding;
+    return ExtremeMode<Dim>{mode.wave_vector, mode.branch, omega_squared, omega_squared - rounding,
+                            omega_squared + rounding};
+  };
+  FrequencyRange<Dim> range;
+  range.highest = extreme(found.stiffest, found.omega_squared_max);
+  range.highest.lower = std::max(range.highest.lower, 0.0);
+  if (found.growth_rate > 0.0) range.lowest = extreme(found.fastest, -found.growth_rate * found.growth_rate);
+  return range;
+}
+
+/// ω² = factor |D~|² of each branch.
+template <int Dim>
+FrequencyRange<Dim> isotropic_range(const IsotropicForm& form, const ZoneMaximum<Dim>& of_symbol,
+                                    const Vector<Dim>& wave_vector) {
+  FrequencyRange<Dim> range;
+  const double rounding = form_rounding * std::max(std::abs(form.longitudinal), std::abs(form.transverse));
+  const auto visit = [&](Branch branch, double factor) {
+    const double width = std::abs(factor) * (of_symbol.upper - of_symbol.lower) + rounding * of_symbol.upper;
+    const double omega_squared = factor * of_symbol.value;
+    const ExtremeMode<Dim> mode{wave_vector, branch, omega_squared, omega_squared - width, omega_squared + width};
+    if (omega_squared > range.highest.omega_squared) range.highest = mode;
+    if (factor < -rounding && omega_squared < range.lowest.omega_squared) range.lowest = mode;
+  };
+  visit(Branch::longitudinal, form.longitudinal);
+  if (Dim > 1) visit(Branch::transverse, form.transverse);
+  return range;
+}
+
 template <int Dim>
 StepLimit<Dim> limit_of(const FrequencyRange<Dim>& range, const ModeSteps& step_of) {
-  const auto& [lowest, highest] = range;
+  const auto& lowest = range.lowest;
+  const auto& highest = range.highest;
   if (lowest.omega_squared < 0.0) {
     const double rate = step_of(lowest.omega_squared).continuous_growth_rate();
     return NeverStable<Dim>{rate, {lowest.wave_vector, lowest.branch, std::sqrt(-lowest.omega_squared)}};
@@ -85,21 +128,64 @@ StepLimit<Dim> limit_of(const FrequencyRange<Dim>& range, const ModeSteps& step_
                         step_of(highest.lower).limit().value_or(everything) * (1.0 + few_roundings)};
   require_in_range(0.0 < bracket.low && bracket.low <= *limit && *limit <= bracket.high);
   return ConditionallyStable<Dim>{
-      *limit, bracket, {highest.wave_vector, highest.branch, std::sqrt(highest.omega_squared)}};
+      *limit, bracket, {highest.wave_vector, highest.branch, std::sqrt(highest.omega_squared)}, range.kind};
 }
 
 /// The limit over these modes.
 template <int Dim>
 StepLimit<Dim> limit_over(const Problem<Dim>& problem, const std::vector<Vector<Dim>>& wave_vectors) {
-  if (problem.scheme.formulation == Formulation::updated_lagrangian)
-    return UpdatedModes<Dim>(problem, wave_vectors).limit();
-  return limit_of(range_over(problem, wave_vectors), ModeSteps(problem));
+  switch (problem.scheme.formulation) {
+    case Formulation::total_lagrangian_linear:
+      break;
+    case Formulation::total_lagrangian_corotated:
+    case Formulation::total_lagrangian_pk1:
+      return limit_of(finite_strain_range<Dim>(problem, FiniteStrain<Dim>(problem), ZoneScan<Dim>(wave_vectors)),
+                      ModeSteps(problem));
+    case Formulation::updated_lagrangian:
+      return UpdatedModes<Dim>(problem, wave_vectors).limit();
+  }
+  return limit_of(linear_range_over(problem, wave_vectors), ModeSteps(problem));
 }
 
 }  // namespace
 
 template <int Dim>
 BulkModes<Dim>::BulkModes(const Problem<Dim>& problem) : steps_(problem) {
+  if (is_finite_strain(problem.scheme.formulation))
+    find_finite_strain(problem);
+  else
+    find_linear(problem);
+}
+
+template <int Dim>
+void BulkModes<Dim>::find_finite_strain(const Problem<Dim>& problem) {
+  const FiniteStrain<Dim> scheme(problem);
+  const GradientSymbol<Dim>& symbol = scheme.symbol();
+  const BrillouinZone<Dim> zone(problem.lattice);
+  const Tensor<Dim> metric = scheme.renormalisation().transpose() * scheme.renormalisation();
+  const auto of_symbol = zone_maximum<Dim>(symbol.series(), metric, irreducible_domain(zone, symbol, metric));
+  symbol_maximum_ = std::sqrt(of_symbol.value);
+  require_in_range(std::isfinite(of_symbol.upper * scheme.moduli().norm()));
+  if (const auto& form = scheme.isotropic_form()) {
+    range_ = isotropic_range<Dim>(*form, of_symbol, tidy<Dim>(zone, symbol.wave_vector(of_symbol.phases)));
+    return;
+  }
+  const ZoneScan<Dim> scan(problem);
+  range_ = finite_strain_range(problem, scheme, scan);
+  ExtremeMode<Dim>& highest = range_.highest;
+  if (problem.scheme.formulation == Formulation::total_lagrangian_pk1) {
+    const auto eigenvalues = [&](const Vector<Dim>& k) { return symmetric_range<Dim>(scheme.dynamics(k).M); };
+    constexpr int order = 2;  // M is quadratic in D
+    highest.upper = std::max(highest.upper, scan.upper_bound(eigenvalues, order, highest.omega_squared));
+  } else {
+    range_.kind = BracketKind::searched;
+    highest.lower *= 1.0 - search_width;
+    highest.upper *= 1.0 + search_width;
+  }
+}
+
+template <int Dim>
+void BulkModes<Dim>::find_linear(const Problem<Dim>& problem) {
   const GradientSymbol<Dim> symbol(problem);
   const AcousticForm<Dim> form(problem, symbol.consistency());
   const Tensor<Dim> Q = form.longitudinal();
@@ -191,7 +277,9 @@ StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>&
 template <int Dim>
 std::optional<double> published_bound(const Problem<Dim>& problem) {
   const double slope = std::abs(problem.kernel.slope(problem.lattice.spacing()));
-  if (problem.lattice.kind() != LatticeKind::square || slope == 0.0) return std::nullopt;
+  if (problem.scheme.formulation != Formulation::total_lagrangian_linear ||
+      problem.lattice.kind() != LatticeKind::square || slope == 0.0)
+    return std::nullopt;
   const LameConstants lame = problem.material.lame(problem.plane);
   const double zhang_G = 2.0 * lame.shear_modulus, rho = problem.material.density();
   return std::sqrt(rho / (2.0 * lame.lambda + 3.0 * zhang_G)) / (problem.lattice.cell_volume() * slope);

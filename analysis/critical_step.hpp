@@ -77,6 +77,7 @@ template <int Dim>
 struct FrequencyRange {
   ExtremeMode<Dim> lowest;
   ExtremeMode<Dim> highest;
+  BracketKind kind = BracketKind::certified;
 };
 
 /// The step of a mode of any ω² by the integrator and the damping of a problem.
@@ -92,8 +93,10 @@ class ModeSteps {
   std::optional<Damping> damping_;
 };
 
-/// The infinite lattice of a total-Lagrangian scheme: its extreme frequencies over the whole Brillouin zone, found once
-/// with certified bounds, and what follows from them for any step.
+/// The infinite lattice of a total-Lagrangian scheme: its extreme frequencies over the whole Brillouin zone, found
+/// once, and what follows from them for any step. With certified bounds of tl-linear, of finite strain where the state
+/// has no preferred direction (FiniteStrain::isotropic_form), and of tl-pk1 everywhere (ZoneScan::upper_bound); of
+/// tl-corotated else by a search, whose values are right to 1e-12.
 template <int Dim>
 class BulkModes {
  public:
@@ -104,7 +107,8 @@ class BulkModes {
 
   const FrequencyRange<Dim>& frequencies() const { return range_; }
 
-  /// max |D(k)| over the zone, 1 / length (`symbol_maximum`), kernel normalisation included.
+  /// max |D(k)| over the zone, 1 / length (`symbol_maximum`), kernel normalisation included; of finite strain that of
+  /// the renormalised D~.
   double symbol_maximum() const { return symbol_maximum_; }
 
   /// Largest spectral radius of E over the zone at this step. At a fixed Δt the trace of a mode is linear in ω² and its
@@ -117,6 +121,9 @@ class BulkModes {
   std::optional<double> step_for_growth(double growth_per_step) const;
 
  private:
+  void find_linear(const Problem<Dim>& problem);
+  void find_finite_strain(const Problem<Dim>& problem);
+
   ModeSteps steps_;
   FrequencyRange<Dim> range_;
   double symbol_maximum_;
@@ -142,12 +149,13 @@ template <int Dim>
 StepLimit<Dim> patch_limit(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
 
 /// Zhang's Eq. 15, Δt = ρ/|mW'(Δ)| √(ρ/(2γ+3G)): sufficient for four neighbours, printed for every kernel (errata.md
-/// Z4, Z5). Nothing where W'(Δp) = 0 or the lattice is not square.
+/// Z4, Z5). Nothing where W'(Δp) = 0, the lattice is not square or the scheme is not tl-linear.
 template <int Dim>
 std::optional<double> published_bound(const Problem<Dim>& problem);
 
-/// The zero-energy modes: every k of the first Brillouin zone with D(k) = 0, Γ excluded, each class of equivalent k
-/// once (on the boundary of the zone the one with the largest first component, then second), shortest first.
+/// The zero-energy modes: every k of the first Brillouin zone with D(k) = 0 (and so D~ = 0), Γ excluded, each class of
+/// equivalent k once (on the boundary of the zone the one with the largest first component, then second), shortest
+/// first.
 template <int Dim>
 struct ZeroEnergyModes {
   std::vector<Vector<Dim>> wave_vectors;

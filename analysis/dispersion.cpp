@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/dispersion.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -16,20 +17,70 @@ constexpr double imaginary_step = 1e-10;
 constexpr double least_overlap = 1e-6;
 /// Branches this close, relative, meet.
 constexpr double same_branch = 1e-9;
+/// And these slopes of equal eigenvalues, relative to ∂M/∂k: they are off by that rounding over the overlap.
+constexpr double same_slope = 1e-9;
 
-/// A unit vector of the null space of M − λ I: the right singular vector of the smallest singular value.
 template <int Dim>
-Vector<Dim, std::complex<double>> eigenvector(const Tensor<Dim>& M, std::complex<double> eigenvalue) {
+using Columns = Eigen::Matrix<std::complex<double>, Dim, Eigen::Dynamic, 0, Dim, Dim>;
+
+/// Orthonormal eigenvectors of an eigenvalue that M has `count` times: the right singular vectors of the smallest
+/// singular values of M − λ I.
+template <int Dim>
+Columns<Dim> eigenvectors(const Tensor<Dim>& M, std::complex<double> eigenvalue, int count) {
   using Complex = std::complex<double>;
   const Tensor<Dim, Complex> shifted = M.template cast<Complex>() - eigenvalue * Tensor<Dim, Complex>::Identity();
-  return Eigen::JacobiSVD<Tensor<Dim, Complex>>(shifted, Eigen::ComputeFullV).matrixV().col(Dim - 1);
+  return Eigen::JacobiSVD<Tensor<Dim, Complex>>(shifted, Eigen::ComputeFullV).matrixV().rightCols(count);
 }
 
+/// y·M' x / y·x of the right and left eigenvectors x, y of one eigenvalue of M, its derivative along M'; of equal
+/// eigenvalues the same for all of them, or nothing where they part.
 template <int Dim>
-bool is_multiple(const Vector<Dim, std::complex<double>>& values, int i) {
-  for (int j = 0; j < Dim; ++j)
-    if (j != i && std::abs(values[j] - values[i]) <= same_branch * std::abs(values[i])) return true;
-  return false;
+std::optional<std::complex<double>> eigenvalue_slope(const Columns<Dim>& x, const Columns<Dim>& y,
+                                                     const Tensor<Dim>& derivative) {
+  const auto overlap = (y.transpose() * x).eval();
+  const auto singular_values = overlap.jacobiSvd().singularValues();
+  if (singular_values[x.cols() - 1] < least_overlap) return std::nullopt;
+  const auto slopes = (overlap.inverse() * (y.transpose() * derivative * x)).eval();
+  const std::complex<double> slope = slopes.trace() / static_cast<double>(x.cols());
+  const auto identity = decltype(slopes)::Identity(x.cols(), x.cols());
+  if ((slopes - slope * identity).norm() > same_slope * derivative.norm()) return std::nullopt;
+  return slope;
+}
+
+/// The branches of a wave whose M and ∂M/∂k_j are given; polarisations are compared with `normal`, that of the fronts.
+template <int Dim>
+std::array<WaveBranch<Dim>, Dim> branches(const Dynamics<Dim>& dynamics,
+                                          const std::array<Tensor<Dim>, Dim>& derivatives,
+                                          const Vector<Dim>& wave_vector, const Vector<Dim>& normal) {
+  using Complex = std::complex<double>;
+  require_in_range(dynamics.M.allFinite());
+  const auto omega_squared = dynamics.omega_squared();
+  std::array<WaveBranch<Dim>, Dim> waves;
+  for (int i = 0; i < Dim; ++i) {
+    const Complex value = omega_squared[i], omega = std::sqrt(value);
+    const auto same = [&](const Complex& other) { return std::abs(other - value) <= same_branch * std::abs(value); };
+    const auto first = std::find_if(omega_squared.begin(), omega_squared.end(), same);
+    const int count = static_cast<int>(std::count_if(first, omega_squared.end(), same));
+    const Columns<Dim> x = eigenvectors<Dim>(dynamics.M, value, count);
+    const Vector<Dim, Complex> polarisation = x.col(i - static_cast<int>(first - omega_squared.begin()));
+    waves[i] = {value.imag() != 0.0 ? Branch::coupled : branch_of<Dim>(polarisation, normal),
+                value,
+                growth_rate_of(value),
+                {},
+                {}};
+    if (omega.real() <= 0.0) continue;
+    waves[i].phase_speed = omega.real() / wave_vector.norm();
+    const Columns<Dim> y = eigenvectors<Dim>(dynamics.M.transpose(), value, count);
+    Vector<Dim> velocity;
+    bool one = true;
+    for (int j = 0; j < Dim; ++j) {
+      const auto slope = eigenvalue_slope<Dim>(x, y, derivatives[j]);
+      one = one && slope;
+      velocity[j] = (slope.value_or(0.0) / (2.0 * omega)).real();
+    }
+    if (one) waves[i].group_velocity = velocity;
+  }
+  return waves;
 }
 
 }  // namespace
@@ -80,44 +131,36 @@ UpdatedWaves<Dim>::UpdatedWaves(const Problem<Dim>& problem) : scheme_(problem) 
 template <int Dim>
 std::array<WaveBranch<Dim>, Dim> UpdatedWaves<Dim>::operator()(const Vector<Dim>& wave_vector) const {
   using Complex = std::complex<double>;
-  const UpdatedWave<Dim> wave = scheme_(wave_vector);
-  const Tensor<Dim> M = wave.dynamical_matrix();
-  require_in_range(M.allFinite());
-  const auto omega_squared = squared_frequencies<Dim>(M, wave.rounding);
-
-  std::array<Tensor<Dim>, Dim> derivative;  // ∂M/∂k_j
+  std::array<Tensor<Dim>, Dim> derivatives;
   const double step = imaginary_step * scheme_.wave_number_unit();
   for (int j = 0; j < Dim; ++j) {
     Vector<Dim, Complex> k = wave_vector.template cast<Complex>();
     k[j] += Complex(0.0, step);
-    derivative[j] = scheme_(k).dynamical_matrix().imag() / step;
+    derivatives[j] = scheme_(k).dynamical_matrix().imag() / step;
   }
-  std::array<WaveBranch<Dim>, Dim> waves;
-  for (int i = 0; i < Dim; ++i) {
-    const Complex value = omega_squared[i], omega = std::sqrt(value);
-    const auto x = eigenvector<Dim>(M, value), y = eigenvector<Dim>(M.transpose(), value);
-    waves[i] = {
-        value.imag() != 0.0 ? Branch::coupled : branch_of<Dim>(x, wave_vector), value, growth_rate_of(value), {}, {}};
-    if (omega.real() <= 0.0) continue;
-    waves[i].phase_speed = omega.real() / wave_vector.norm();
-    const Complex overlap = (y.transpose() * x).value();
-    if (std::abs(overlap) < least_overlap || is_multiple<Dim>(omega_squared, i)) continue;
-    Vector<Dim> velocity;
-    for (int j = 0; j < Dim; ++j)
-      velocity[j] = ((y.transpose() * derivative[j] * x).value() / (2.0 * omega * overlap)).real();
-    waves[i].group_velocity = velocity;
-  }
+  return branches<Dim>(scheme_(wave_vector).dynamics(), derivatives, wave_vector, wave_vector);
+}
+
+template <int Dim>
+FiniteStrainWaves<Dim>::FiniteStrainWaves(const Problem<Dim>& problem) : scheme_(problem), steps_(problem) {}
+
+template <int Dim>
+std::array<WaveBranch<Dim>, Dim> FiniteStrainWaves<Dim>::operator()(const Vector<Dim>& wave_vector) const {
+  auto waves = branches<Dim>(scheme_.dynamics(wave_vector), scheme_.derivatives(wave_vector), wave_vector,
+                             scheme_.present_wave_vector(wave_vector));
+  for (auto& wave : waves) wave.growth_rate = steps_(wave.omega_squared.real()).continuous_growth_rate();
   return waves;
 }
 
 template <int Dim>
 DispersionRelation<Dim>::DispersionRelation(const Problem<Dim>& problem)
-    : waves_([&]() -> std::variant<LinearWaves<Dim>, UpdatedWaves<Dim>> {
+    : waves_([&]() -> decltype(waves_) {
         switch (problem.scheme.formulation) {
           case Formulation::total_lagrangian_linear:
             return LinearWaves<Dim>(problem);
           case Formulation::total_lagrangian_corotated:
           case Formulation::total_lagrangian_pk1:
+            return FiniteStrainWaves<Dim>(problem);
           case Formulation::updated_lagrangian:
             break;
         }

@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "analysis/dispersion.hpp"
+#include "analysis/ellipticity.hpp"
+#include "analysis/finite_strain.hpp"
 #include "analysis/in_range.hpp"
 #include "analysis/updated_lagrangian.hpp"
 
@@ -21,26 +23,20 @@ constexpr double epsilon_tolerance = 1e-8;
 /// Local minima above this part of the range of the sampled values cannot fall to zero within a box of the grid:
 /// between points 2w apart a polynomial of type 2σ or 3σ falls by less than that (Riesz's bound, see ZoneScan).
 constexpr double near_zero = 0.3;
-
-/// M at one k and its rounding.
-template <int Dim>
-struct Dynamics {
-  Tensor<Dim> M;
-  double rounding;
-
-  Vector<Dim, std::complex<double>> omega_squared() const { return squared_frequencies<Dim>(M, rounding); }
-  bool symmetric() const { return (M - M.transpose()).cwiseAbs().maxCoeff() <= rounding; }
-};
+/// The shift of `fastest_in_cone`: it begins as this part of the range of the least eigenvalue, falls by this factor,
+/// and is gone when it is so small beside the negative one.
+constexpr double first_shift = 0.3;
+constexpr double fall_of_shift = 0.2;
+constexpr double last_shift = 0.1;
 
 template <int Dim>
 using DynamicsAt = std::function<Dynamics<Dim>(const Vector<Dim>&)>;
 
 template <int Dim>
 DynamicsAt<Dim> dynamics_of(const Problem<Dim>& problem) {
-  return [scheme = UpdatedLagrangian<Dim>(problem)](const Vector<Dim>& k) {
-    const UpdatedWave<Dim> wave = scheme(k);
-    return Dynamics<Dim>{wave.dynamical_matrix(), wave.rounding};
-  };
+  if (is_finite_strain(problem.scheme.formulation))
+    return [scheme = FiniteStrain<Dim>(problem)](const Vector<Dim>& k) { return scheme.dynamics(k); };
+  return [scheme = UpdatedLagrangian<Dim>(problem)](const Vector<Dim>& k) { return scheme(k).dynamics(); };
 }
 
 template <int Dim>
@@ -137,14 +133,42 @@ class DynamicsScan {
 };
 
 template <int Dim>
-GrowthRange<Dim> linear_range(const Problem<Dim>& problem) {
-  const auto [lowest, highest] = BulkModes<Dim>(problem).frequencies();
+GrowthRange<Dim> total_lagrangian_range(const Problem<Dim>& problem) {
+  const auto [lowest, highest, kind] = BulkModes<Dim>(problem).frequencies();
   const double rate = std::sqrt(std::max(-lowest.omega_squared, 0.0));
   return {rate,
           {lowest.wave_vector, lowest.branch, rate},
           lowest.omega_squared,
           highest.omega_squared,
           {highest.wave_vector, highest.branch, std::sqrt(highest.omega_squared)}};
+}
+
+/// The fastest growth of finite strain. ω² is negative where D~ lies in a cone about the weakest direction, which may
+/// be narrower than the grid: it is widened by a shift of ω²/|D~|², and its summits are followed as the shift falls.
+template <int Dim>
+ZonePoint<Dim> fastest_in_cone(const Problem<Dim>& problem, const ZoneScan<Dim>& scan) {
+  ZonePoint<Dim> best{Vector<Dim>::Zero(), 0.0};
+  const double weakest = weakest_direction(problem).squared_speed;
+  if (weakest >= 0.0) return best;
+  const FiniteStrain<Dim> scheme(problem);
+  const auto squared = [&](const Vector<Dim>& k) { return scheme.renormalised_symbol(k).squaredNorm(); };
+  const auto least = [&](const Vector<Dim>& k) { return scheme.dynamics(k).omega_squared()[0].real(); };
+  double highest = 0.0;
+  for (const auto& k : scan.points())
+    if (const double size = squared(k); size > 0.0) highest = std::max(highest, least(k) / size);
+
+  double shift = first_shift * (highest - weakest);
+  const auto shifted = [&](const Vector<Dim>& k) { return shift * squared(k) - least(k); };
+  std::vector<Vector<Dim>> summits;
+  for (const std::size_t start : scan.local_maxima(scan.sampled(shifted))) summits.push_back(scan.points()[start]);
+  for (; shift > -last_shift * weakest; shift *= fall_of_shift)
+    for (auto& k : summits) k = scan.polished(shifted, k).wave_vector;
+  for (const auto& k : summits) {
+    const auto summit = scan.polished([&](const Vector<Dim>& at) { return -least(at); }, k);
+    if (const double rate = std::sqrt(std::max(summit.value, 0.0)); rate > best.value)
+      best = {summit.wave_vector, rate};
+  }
+  return best;
 }
 
 /// Whether the problem is stable at any ε. M is sampled at two of them, 0 and 1, and polished at each.
@@ -213,9 +237,9 @@ template <int Dim>
 GrowthRange<Dim> growth_range(const Problem<Dim>& problem) {
   switch (problem.scheme.formulation) {
     case Formulation::total_lagrangian_linear:
-      return linear_range(problem);
     case Formulation::total_lagrangian_corotated:
     case Formulation::total_lagrangian_pk1:
+      return total_lagrangian_range(problem);
     case Formulation::updated_lagrangian:
       break;
   }
@@ -227,8 +251,13 @@ GrowthRange<Dim> growth_range(const Problem<Dim>& problem, const ZoneScan<Dim>& 
   Problem<Dim> inviscid = problem;
   inviscid.scheme.viscosity.reset();
   const DynamicsScan<Dim> dynamics(scan, dynamics_of(inviscid));
-  const ZonePoint<Dim> highest = dynamics.maximum(largest), lowest = dynamics.maximum(minus_least),
-                       fastest = dynamics.fastest();
+  const ZonePoint<Dim> highest = dynamics.maximum(largest);
+  ZonePoint<Dim> lowest = dynamics.maximum(minus_least), fastest = dynamics.fastest();
+  if (is_finite_strain(problem.scheme.formulation))
+    if (const auto in_cone = fastest_in_cone(problem, scan); in_cone.value > fastest.value) {
+      fastest = in_cone;
+      lowest = {in_cone.wave_vector, in_cone.value * in_cone.value};
+    }
   require_in_range(std::isfinite(highest.value) && std::isfinite(lowest.value));
 
   const BrillouinZone<Dim> zone(problem.lattice);

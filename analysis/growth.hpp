@@ -20,14 +20,15 @@ struct GrowthRange {
   CriticalMode<Dim> stiffest;  ///< the mode of omega_squared_max
 };
 
-/// Of `tl-linear` from the certified range of BulkModes. Of `ul` by a scan of the zone (ZoneScan) whose local extrema
+/// Of total-Lagrangian schemes the range of BulkModes. Of `ul` by a scan of the zone (ZoneScan) whose local extrema
 /// of the largest and the least ω², of the growth rate and of the discriminant of the characteristic polynomial of M
 /// are polished: the last because complex ω² can live in tongues narrower than any grid (theory.md §3). Values are
 /// right to a few 1e-13 where a maximum is smooth. Tested in tests/analysis/test_growth.cpp.
 template <int Dim>
 GrowthRange<Dim> growth_range(const Problem<Dim>& problem);
 
-/// Of `ul` over the modes of a scan.
+/// Of `ul`, `tl-corotated` and `tl-pk1` over the modes of a scan; of the latter two the cones of directions in which
+/// ellipticity is lost (weakest_direction) are searched too, however narrow.
 template <int Dim>
 GrowthRange<Dim> growth_range(const Problem<Dim>& problem, const ZoneScan<Dim>& scan);
 

@@ -46,8 +46,8 @@ class ElasticResponse {
  private:
   ElasticLaw law_;
   LameConstants lame_;
-  Tensor<Dim> stress_;
-  Tensor<Dim> inverse_;  ///< C⁻¹, of neo-Hookean
+  Tensor<Dim> stress_ = Tensor<Dim>::Zero();
+  Tensor<Dim> inverse_ = Tensor<Dim>::Zero();  ///< C⁻¹, of neo-Hookean
   double log_volume_ = 0.0;
 };
 
@@ -56,7 +56,7 @@ template <int Dim>
 class PolarDecomposition {
  public:
   explicit PolarDecomposition(const Tensor<Dim>& F) {
-    const Eigen::JacobiSVD<Tensor<Dim>> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
     axes_ = svd.matrixV();
     stretches_ = svd.singularValues();
     rotation_ = svd.matrixU() * axes_.transpose();
@@ -102,18 +102,18 @@ TangentModuli<Dim> tangent_moduli(const Scheme& scheme, const LameConstants& lam
 }
 
 template <int Dim>
-Tensor<Dim> acoustic_tensor(const TangentModuli<Dim>& moduli, const Vector<Dim>& n) {
-  Tensor<Dim> Q = Tensor<Dim>::Zero();
+Tensor<Dim> contraction(const TangentModuli<Dim>& moduli, const Vector<Dim>& m, const Vector<Dim>& n) {
+  Tensor<Dim> sum = Tensor<Dim>::Zero();
   for (int J = 0; J < Dim; ++J)
-    for (int L = 0; L < Dim; ++L) Q += n[J] * n[L] * moduli.template block<Dim, Dim>(Dim * J, Dim * L);
-  return Q;
+    for (int L = 0; L < Dim; ++L) sum += m[J] * n[L] * moduli.template block<Dim, Dim>(Dim * J, Dim * L);
+  return sum;
 }
 
 template TangentModuli<1> tangent_moduli(const Scheme&, const LameConstants&, const Tensor<1>&);
-template Tensor<1> acoustic_tensor<1>(const TangentModuli<1>&, const Vector<1>&);
+template Tensor<1> contraction<1>(const TangentModuli<1>&, const Vector<1>&, const Vector<1>&);
 template TangentModuli<2> tangent_moduli(const Scheme&, const LameConstants&, const Tensor<2>&);
-template Tensor<2> acoustic_tensor<2>(const TangentModuli<2>&, const Vector<2>&);
+template Tensor<2> contraction<2>(const TangentModuli<2>&, const Vector<2>&, const Vector<2>&);
 template TangentModuli<3> tangent_moduli(const Scheme&, const LameConstants&, const Tensor<3>&);
-template Tensor<3> acoustic_tensor<3>(const TangentModuli<3>&, const Vector<3>&);
+template Tensor<3> contraction<3>(const TangentModuli<3>&, const Vector<3>&, const Vector<3>&);
 
 }  // namespace sphstab::analysis

@@ -21,15 +21,23 @@ using TangentModuli = Eigen::Matrix<double, Dim * Dim, Dim * Dim>;
 template <int Dim>
 TangentModuli<Dim> tangent_moduli(const Scheme& scheme, const LameConstants& lame, const Tensor<Dim>& F);
 
-/// Q_ik = A_iJkL n_J n_L.
+/// A_iJkL m_J n_L.
 template <int Dim>
-Tensor<Dim> acoustic_tensor(const TangentModuli<Dim>& moduli, const Vector<Dim>& n);
+Tensor<Dim> contraction(const TangentModuli<Dim>& moduli, const Vector<Dim>& m, const Vector<Dim>& n);
+
+/// Q_ik = A_iJkL n_J n_L. Its eigenvalues are real: A of `tl-pk1` is symmetric, and with R S
+///   Rᵀ Q R = G (n·Un) I + (I + λ/G n nᵀ)(G U + T),   T = Tᵀ, T n = 0,
+/// a positive definite matrix times a symmetric one beside a multiple of I.
+template <int Dim>
+Tensor<Dim> acoustic_tensor(const TangentModuli<Dim>& moduli, const Vector<Dim>& n) {
+  return contraction<Dim>(moduli, n, n);
+}
 
 extern template TangentModuli<1> tangent_moduli(const Scheme&, const LameConstants&, const Tensor<1>&);
-extern template Tensor<1> acoustic_tensor<1>(const TangentModuli<1>&, const Vector<1>&);
+extern template Tensor<1> contraction<1>(const TangentModuli<1>&, const Vector<1>&, const Vector<1>&);
 extern template TangentModuli<2> tangent_moduli(const Scheme&, const LameConstants&, const Tensor<2>&);
-extern template Tensor<2> acoustic_tensor<2>(const TangentModuli<2>&, const Vector<2>&);
+extern template Tensor<2> contraction<2>(const TangentModuli<2>&, const Vector<2>&, const Vector<2>&);
 extern template TangentModuli<3> tangent_moduli(const Scheme&, const LameConstants&, const Tensor<3>&);
-extern template Tensor<3> acoustic_tensor<3>(const TangentModuli<3>&, const Vector<3>&);
+extern template Tensor<3> contraction<3>(const TangentModuli<3>&, const Vector<3>&, const Vector<3>&);
 
 }  // namespace sphstab::analysis

@@ -82,19 +82,6 @@ Vector<Dim> shares(const Tensor<Dim>& M, const Tensor<Dim>& part, const Vector<D
   return result;
 }
 
-template <int Dim>
-EigenvalueRange symmetric_range(const Tensor<Dim>& M) {
-  if constexpr (Dim == 2) {
-    const double mean = 0.5 * M.trace();
-    const double radius = std::hypot(0.5 * (M(0, 0) - M(1, 1)), 0.5 * (M(0, 1) + M(1, 0)));
-    return {mean - radius, mean + radius};
-  } else {
-    const Tensor<Dim> symmetric = 0.5 * (M + M.transpose());
-    const Vector<Dim> values = symmetric.template selfadjointView<Eigen::Lower>().eigenvalues();
-    return {values[0], values[Dim - 1]};
-  }
-}
-
 bool is_kick(Integrator integrator) { return integrator == Integrator::leapfrog || integrator == Integrator::verlet; }
 
 }  // namespace

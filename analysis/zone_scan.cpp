@@ -2,6 +2,7 @@
 #include "analysis/zone_scan.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -96,13 +97,33 @@ std::size_t cell_number(const LatticeIndex<Dim>& n, const LatticeIndex<Dim>& cel
   return static_cast<std::size_t>(number);
 }
 
+/// What a symmetry of the lattice must leave as it is: the stress of `ul`, C = F0ᵀ F0 of finite strain.
+template <int Dim>
+Tensor<Dim> base_form(const Problem<Dim>& problem) {
+  if (is_finite_strain(problem.scheme.formulation))
+    return problem.deformation_gradient.transpose() * problem.deformation_gradient;
+  return problem.deviatoric_stress - problem.pressure * Tensor<Dim>::Identity();
+}
+
 }  // namespace
+
+template <int Dim>
+EigenvalueRange symmetric_range(const Tensor<Dim>& M) {
+  if constexpr (Dim == 2) {
+    const double mean = 0.5 * M.trace();
+    const double radius = std::hypot(0.5 * (M(0, 0) - M(1, 1)), 0.5 * (M(0, 1) + M(1, 0)));
+    return {mean - radius, mean + radius};
+  } else {
+    const Tensor<Dim> symmetric = 0.5 * (M + M.transpose());
+    const Vector<Dim> values = symmetric.template selfadjointView<Eigen::Lower>().eigenvalues();
+    return {values[0], values[Dim - 1]};
+  }
+}
 
 template <int Dim>
 ZoneScan<Dim>::ZoneScan(const Problem<Dim>& problem) {
   const GradientSymbol<Dim> symbol(problem);
-  const Tensor<Dim> stress = problem.deviatoric_stress - problem.pressure * Tensor<Dim>::Identity();
-  domain_ = irreducible_domain<Dim>(BrillouinZone<Dim>(problem.lattice), symbol, stress);
+  domain_ = irreducible_domain<Dim>(BrillouinZone<Dim>(problem.lattice), symbol, base_form(problem));
   for (int axis = 0; axis < Dim; ++axis) phase_axes_.col(axis) = symbol.wave_vector(Vector<Dim>::Unit(axis));
   type_ = symbol.series().type();
   half_width_ = scan_resolution<Dim> / type_;
@@ -252,7 +273,10 @@ double ZoneScan<Dim>::upper_bound(const std::function<EigenvalueRange(const Vect
 }
 
 template class ZoneScan<1>;
+template EigenvalueRange symmetric_range(const Tensor<1>&);
 template class ZoneScan<2>;
+template EigenvalueRange symmetric_range(const Tensor<2>&);
 template class ZoneScan<3>;
+template EigenvalueRange symmetric_range(const Tensor<3>&);
 
 }  // namespace sphstab::analysis

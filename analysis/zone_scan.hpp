@@ -22,11 +22,16 @@ struct EigenvalueRange {
   double high;
 };
 
+/// Of the symmetric part of M: every real part of an eigenvalue of M lies between.
+template <int Dim>
+EigenvalueRange symmetric_range(const Tensor<Dim>& M);
+
 /// Functions of k sampled over the whole Brillouin zone, or over given wave vectors, and their maxima. The grid covers
-/// the irreducible wedge of those symmetries of the lattice that leave the base stress as it is, which all that `ul`
-/// makes of k obeys; it is fine enough for the support: its boxes of phases have half a width w with σ w =
-/// scan_resolution, σ the exponential type of the lattice sums. Zero-energy modes are points of their own, because a
-/// small stress makes narrow dips there (theory.md §9). Tested in tests/analysis/test_zone_scan.cpp.
+/// the irreducible wedge of those symmetries of the lattice that leave the base stress of `ul`, or F0ᵀ F0 of finite
+/// strain, as it is, which the ω² of these schemes obey; it is fine enough for the support: its boxes of phases have
+/// half a width w with σ w = scan_resolution, σ the exponential type of the lattice sums. Zero-energy modes are points
+/// of their own, because a small stress makes narrow dips there (theory.md §9). Tested in
+/// tests/analysis/test_zone_scan.cpp.
 template <int Dim>
 class ZoneScan {
  public:
@@ -76,7 +81,10 @@ class ZoneScan {
 };
 
 extern template class ZoneScan<1>;
+extern template EigenvalueRange symmetric_range(const Tensor<1>&);
 extern template class ZoneScan<2>;
+extern template EigenvalueRange symmetric_range(const Tensor<2>&);
 extern template class ZoneScan<3>;
+extern template EigenvalueRange symmetric_range(const Tensor<3>&);
 
 }  // namespace sphstab::analysis
