@@ -5,78 +5,40 @@
 #include <limits>
 
 namespace sphstab::analysis {
-namespace {
-
-/// N_a.
-template <int Dim>
-double normalisation(const Problem<Dim>& problem, const Body<Dim>& body, int a) {
-  if (problem.scheme.kernel_normalisation == KernelNormalisation::none) return 1.0;
-  double N = body.volume[a] * problem.kernel.value(0.0);
-  for (int p = body.pairs.first[a]; p < body.pairs.first[a + 1]; ++p)
-    N += body.volume[body.pairs.neighbour[p]] * problem.kernel.value(body.pairs.separation[p].norm());
-  return N;
-}
-
-}  // namespace
 
 template <int Dim>
-BodyOperator<Dim>::BodyOperator(const Problem<Dim>& problem, const Body<Dim>& body)
-    : body_(body),
-      root_inverse_mass_(Eigen::VectorXd::Zero(body.size() * Dim)),
-      displacement_(body.size()),
-      stress_(body.size()) {
-  require_total_lagrangian(problem.scheme, "the spectrum of a body");
+BodyOperator<Dim>::BodyOperator(const Problem<Dim>& problem, const Body<Dim>& body) : Base(problem, body) {
   if (problem.scheme.momentum_density == MomentumDensity::equation_of_state &&
       !problem.displacement_gradient.isZero(0.0))
     throw InvalidInput(
         "density_in_momentum: equation-of-state with a displacement_gradient is for infinite lattices, bodies take "
         "frozen");
+  if (is_finite_strain(problem.scheme.formulation) && problem.deformation_gradient != Tensor<Dim>::Identity())
+    throw InvalidInput("deformation_gradient: a free body takes none, it would not be in equilibrium");
   std::vector<LameConstants> lame;
   for (const Material& material : body.materials) lame.push_back(material.lame(problem.plane));
-
   const auto& pairs = body.pairs;
-  gradient_.reserve(pairs.neighbour.size());
   for (int a = 0; a < body.size(); ++a) {
     Vector<Dim> sum = Vector<Dim>::Zero();
-    for (int p = pairs.first[a]; p < pairs.first[a + 1]; ++p) {
-      const Vector<Dim>& r_ab = pairs.separation[p];
-      const double distance = r_ab.norm();
-      gradient_.push_back(body.volume[pairs.neighbour[p]] * problem.kernel.slope(distance) / distance * r_ab);
-      sum += gradient_.back();
-    }
+    for (int p = pairs.first[a]; p < pairs.first[a + 1]; ++p) sum += gradient_[p];
     own_gradient_.push_back(-sum);
-    const double N = normalisation(problem, body, a);
-    const auto& [lambda, shear_modulus, volume_factor] = lame[body.material[a]];
-    moduli_.push_back({shear_modulus / N, lambda / N});
-    for (int i = 0; i < Dim; ++i) {
-      if (!body.clamped.empty() && body.clamped[a][i]) continue;
-      root_inverse_mass_[a * Dim + i] = 1.0 / std::sqrt(body.mass(a) * N);
-      unknowns_.push_back(a * Dim + i);
-    }
+    const double N = Base::normalisation_[a];
+    moduli_.push_back({lame[body.material[a]].shear_modulus / N, lame[body.material[a]].lambda / N});
   }
 }
 
 template <int Dim>
 void BodyOperator<Dim>::apply(const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-  const int particles = body_.size();
-  const int* const first = body_.pairs.first.data();
-  const int* const neighbour = body_.pairs.neighbour.data();
-  for (int a = 0; a < particles; ++a)
-    displacement_[a] = root_inverse_mass_.template segment<Dim>(a * Dim).cwiseProduct(x.template segment<Dim>(a * Dim));
-  for (int a = 0; a < particles; ++a) {
-    const Vector<Dim> s_a = displacement_[a];
-    Tensor<Dim> sum = Tensor<Dim>::Zero();
-    for (int p = first[a]; p < first[a + 1]; ++p)
-      sum.noalias() += (displacement_[neighbour[p]] - s_a) * gradient_[p].transpose();
-    stress_[a] = moduli_[a].shear * (sum + sum.transpose()) + moduli_[a].lambda * sum.trace() * Tensor<Dim>::Identity();
-  }
-  for (int a = 0; a < particles; ++a) {
-    const Tensor<Dim> sigma_a = stress_[a];
-    Vector<Dim> force = Vector<Dim>::Zero();
-    for (int p = first[a]; p < first[a + 1]; ++p) force.noalias() += (stress_[neighbour[p]] + sigma_a) * gradient_[p];
-    y.template segment<Dim>(a * Dim) =
-        -body_.volume[a] * root_inverse_mass_.template segment<Dim>(a * Dim).cwiseProduct(force);
-  }
+  const auto stress = [this](int a, const Tensor<Dim>& gradient) -> Tensor<Dim> {
+    return moduli_[a].shear * (gradient + gradient.transpose()) +
+           moduli_[a].lambda * gradient.trace() * Tensor<Dim>::Identity();
+  };
+  if (renormalisation_.empty()) return Base::apply_with(stress, x, y);
+  Base::apply_with(
+      [&](int a, const Tensor<Dim>& gradient) -> Tensor<Dim> {
+        return stress(a, gradient * renormalisation_[a]) * renormalisation_[a];
+      },
+      x, y);
 }
 
 /// The blocks of S that couple a particle b to every c ≥ `from`, b's components in rows.
@@ -104,12 +66,14 @@ class BodyOperator<Dim>::Row {
   }
 
  private:
-  /// The part of the strain energy of a, of which b's gradient is g_b:
+  /// The part of the strain energy of a, of which b's gradient is g_b, N_a times `of_b` where it is renormalised:
   /// (V_a/N_a) (G [(g_b·g_c) I + g_c g_bᵀ] + λ g_b g_cᵀ).
-  void add_strain_of(int a, const Vector<Dim>& g_b, int from) {
+  void add_strain_of(int a, const Vector<Dim>& of_b, int from) {
+    const Vector<Dim> g_b = op_.renormalised(a, of_b);
     const double shear = body_.volume[a] * op_.moduli_[a].shear, lambda = body_.volume[a] * op_.moduli_[a].lambda;
-    const auto add = [&](int c, const Vector<Dim>& g_c) {
+    const auto add = [&](int c, const Vector<Dim>& of_c) {
       if (c < from) return;
+      const Vector<Dim> g_c = op_.renormalised(a, of_c);
       others_.push_back(c);
       block_[c] +=
           shear * (g_b.dot(g_c) * Tensor<Dim>::Identity() + g_c * g_b.transpose()) + lambda * g_b * g_c.transpose();
@@ -127,7 +91,7 @@ class BodyOperator<Dim>::Row {
 
 template <int Dim>
 Eigen::SparseMatrix<double> BodyOperator<Dim>::matrix() const {
-  std::vector<int> unknown(components(), -1);
+  std::vector<int> unknown(Base::components(), -1);
   for (int i = 0; i < static_cast<int>(unknowns_.size()); ++i) unknown[unknowns_[i]] = i;
   Eigen::SparseMatrix<double> lower(unknowns_.size(), unknowns_.size());
   std::vector<std::pair<int, Tensor<Dim>>> blocks;
@@ -150,13 +114,6 @@ Eigen::SparseMatrix<double> BodyOperator<Dim>::matrix() const {
 }
 
 template <int Dim>
-Eigen::MatrixXd BodyOperator<Dim>::places() const {
-  Eigen::MatrixXd places(Dim, unknowns_.size());
-  for (std::size_t i = 0; i < unknowns_.size(); ++i) places.col(i) = body_.position[unknowns_[i] / Dim];
-  return places;
-}
-
-template <int Dim>
 double BodyOperator<Dim>::norm_bound() const {
   double largest = 0.0;
   Row row(*this);
@@ -173,15 +130,22 @@ double BodyOperator<Dim>::norm_bound() const {
 template <int Dim>
 double BodyOperator<Dim>::rounding() const {
   const auto& pairs = body_.pairs;
-  // Row sums of M⁻¹|S|, |S| with every term positive: a bound on the norm, as that matrix is symmetric in M.
+  // Row sums of M⁻¹|S|, |S| with every term positive: a bound on the norm, as that matrix is symmetric in M. The
+  // rounding of N_a is at most that of its sum between two |N_a|, and what stands for N_a here is no less than |N_a|.
   std::vector<Tensor<Dim>> stress;
   int most_neighbours = 0;
   for (int a = 0; a < body_.size(); ++a) {
     Vector<Dim> sum = Vector<Dim>::Zero();
-    for (int p = pairs.first[a]; p < pairs.first[a + 1]; ++p) sum += 2.0 * gradient_[p].cwiseAbs();
-    const Tensor<Dim> strain = Vector<Dim>::Ones() * sum.transpose();
-    stress.push_back(moduli_[a].shear * (strain + strain.transpose()) +
-                     std::abs(moduli_[a].lambda) * sum.sum() * Tensor<Dim>::Identity());
+    Tensor<Dim> moments = Tensor<Dim>::Zero(), N = Tensor<Dim>::Identity();
+    for (int p = pairs.first[a]; p < pairs.first[a + 1]; ++p) {
+      sum += 2.0 * gradient_[p].cwiseAbs();
+      moments += pairs.separation[p].cwiseAbs() * gradient_[p].cwiseAbs().transpose();
+    }
+    if (!renormalisation_.empty()) N = renormalisation_[a].cwiseAbs() * moments * renormalisation_[a].cwiseAbs();
+    const Tensor<Dim> strain = Vector<Dim>::Ones() * (N * sum).transpose();
+    stress.push_back((moduli_[a].shear * (strain + strain.transpose()) +
+                      std::abs(moduli_[a].lambda) * strain.trace() * Tensor<Dim>::Identity()) *
+                     N);
     most_neighbours = std::max(most_neighbours, pairs.first[a + 1] - pairs.first[a]);
   }
   double norm = 0.0;
@@ -193,7 +157,8 @@ double BodyOperator<Dim>::rounding() const {
     norm = std::max(norm, body_.volume[a] * weight.cwiseProduct(force).maxCoeff());
   }
   constexpr int of_one_term = 16;  // products, the stress, the two roots of the masses
-  return (2 * most_neighbours + of_one_term) * std::numeric_limits<double>::epsilon() * norm;
+  const int sums = renormalisation_.empty() ? 2 : 4;
+  return (sums * most_neighbours + of_one_term) * std::numeric_limits<double>::epsilon() * norm;
 }
 
 template class BodyOperator<1>;

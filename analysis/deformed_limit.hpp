@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <optional>
+
+#include "analysis/deformed_body.hpp"
+
+namespace sphstab::analysis {
+
+struct DeformedLimitOptions {
+  int dimension = 30;          ///< of the Krylov spaces
+  double tolerance = 1e-8;     ///< of the residuals, relative to the largest ω²
+  long most = 4000;            ///< applications for each end of the spectrum; few of them make an estimate
+  bool leftmost = false;       ///< whether the other end is asked for
+  Eigen::VectorXd start = {};  ///< DeformedLimit::vector of a state nearby; absent: random
+  double noise = 1e-2;         ///< of the norm of `start`, added to it: a mode that overtakes is not missed
+  unsigned seed = 1;           ///< of what is random
+};
+
+/// One end of the spectrum of a deformed body. ω² of a complex pair, the one with a positive imaginary part, grows in
+/// continuous time (flutter), and so does a negative one; an imaginary part below the residual is none.
+struct ExtremeSquare {
+  std::complex<double> omega_squared;
+  double residual;         ///< ‖K x − ω² x‖ / ‖x‖ over the largest |ω²|
+  Eigen::VectorXd vector;  ///< M^½ displacement, of norm 1; of a complex pair the real part
+};
+
+struct DeformedLimit {
+  ExtremeSquare largest;  ///< of the largest real part
+  /// Of the integrator and the damping, for `largest`: modes that grow at any step do not count. Nothing if the largest
+  /// is a complex pair or not above 0.
+  std::optional<double> critical_time_step;
+  std::optional<ExtremeSquare> leftmost;  ///< of the smallest real part: an upper estimate of it where K is symmetric
+  long applications;
+};
+
+/// The extreme ω² of the state that the operator is about, by `arnoldi`: with few applications estimates, from inside
+/// the spectrum where K is symmetric, whose quality the residuals tell. Tested in
+/// tests/analysis/test_deformed_limit.cpp.
+template <int Dim>
+DeformedLimit deformed_limit(DeformedBodyOperator<Dim>& body_operator, const DeformedLimitOptions& options = {});
+
+extern template DeformedLimit deformed_limit(DeformedBodyOperator<1>&, const DeformedLimitOptions&);
+extern template DeformedLimit deformed_limit(DeformedBodyOperator<2>&, const DeformedLimitOptions&);
+extern template DeformedLimit deformed_limit(DeformedBodyOperator<3>&, const DeformedLimitOptions&);
+
+}  // namespace sphstab::analysis
