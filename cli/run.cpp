@@ -31,6 +31,11 @@ std::string unstable_row(const Json& answer) {
                                                                   failure["term"].get<std::string>())
                                                     : lost);
   }
+  if (answer.contains("growth")) {
+    const Json& growth = answer["growth"];
+    return row("UNSTABLE", fmt::format("more energy than the start and the loads gave, at step {}; cause: {}",
+                                       growth["step"].get<long>(), growth["cause"].get<std::string>()));
+  }
   if (const long lost = answer["lost_particles"].get<long>(); lost > 0)
     return row("UNSTABLE", fmt::format("particles that have lost all their neighbours: {}", lost));
   if (answer["unstable"].get<bool>())
@@ -42,6 +47,12 @@ std::string describe(const Json& answer) {
   std::string text = fmt::format("Run of {}: {} particles\n", subject(answer), answer["particles"].get<int>());
   text += time_step_row(answer);
   text += row("critical step of", answer["critical_time_step_of"].get<std::string>());
+  if (answer.contains("followed")) {
+    const Json& followed = answer["followed"];
+    text += row("followed", fmt::format("steps from {} to {}; {} updates took {:.2g} % of the CPU time",
+                                        number(followed, "smallest_time_step"), number(followed, "largest_time_step"),
+                                        followed["updates"].get<long>(), 100.0 * followed["cost_share"].get<double>()));
+  }
   if (answer.contains("note")) text += row("note", answer["note"].get<std::string>());
   if (answer.contains("predicted_growth_e_foldings"))
     text += row("WARNING", fmt::format("at this step theory predicts {} e-foldings of the fastest mode",

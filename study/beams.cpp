@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/spectrum.hpp"
 #include "study/relaxation.hpp"
 #include "study/step_comparison.hpp"
 
@@ -26,7 +27,9 @@ constexpr double cylinder_radius = 0.05, bar_height = 0.02, bar_density = 1000.0
 /// Particles that a point is read from, in spacings.
 constexpr double reading_radius = 2.3;
 
-constexpr double resting_fraction = 0.85;
+/// Of the critical step, relative: no bound is proven, which would take longer than the run.
+constexpr double step_tolerance = 1e-6;
+
 constexpr long most_resting_steps = 3'000'000;
 
 Problem<2> problem_of(double spacing, const Material& material, const Method& method) {
@@ -75,9 +78,9 @@ SceneDescription<2> beam_scene(const Beam& beam, const Method& method) {
   const auto material = Material::from_young_modulus(beam_density, beam.young_modulus, beam.poisson_ratio);
   auto scene = scene_of("beam", problem_of(beam.spacing, material, method));
   const double held = held_columns * beam.spacing;
-  add_box(scene, {{-held, 0.0}, {beam_length, beam.height}});
+  add_box(scene, {{-held, 0.0}, {beam.length, beam.height}});
   scene.clamps = {{Box<2>{{-held, 0.0}, {0.0, beam.height}}, Directions<2>::Constant(true)}};
-  scene.tractions = {{Box<2>{{beam_length - beam.spacing, 0.0}, {beam_length, beam.height}},
+  scene.tractions = {{Box<2>{{beam.length - beam.spacing, 0.0}, {beam.length, beam.height}},
                       TotalForce<2>{{beam.force_x, beam.force_y}}}};
   return scene;
 }
@@ -129,14 +132,16 @@ double largest_gap(const Scene<2>& scene, const std::vector<Vector<2>>& displace
 
 double step_of(const Scene<2>& scene, double fraction) {
   if (is_total_lagrangian(scene.problem.scheme.formulation))
-    return fraction * *theory_limit<2>(scene.problem, scene.body).critical_time_step;
+    return fraction * analysis::body_limit(scene.problem, scene.body,
+                                           {.bound = analysis::BoundKind::norm_bound, .tolerance = step_tolerance})
+                          .critical_time_step;
   Problem<2> problem = scene.problem;
   if (problem.scheme.viscosity) problem.scheme.viscosity->pairs = ViscousPairs::all;  // has a theory, and a lower limit
   return fraction * *bulk_step(problem);
 }
 
-Rest rest_of(const Scene<2>& scene, double tolerance) {
-  const double time_step = step_of(scene, resting_fraction);
+Rest rest_of(const Scene<2>& scene, double tolerance, double fraction) {
+  const double time_step = step_of(scene, fraction);
   Rest rest{.converged = false, .displacement = {}, .steps = 0, .time_step = time_step, .is_broken = false};
   const auto found = relax<2>(scene.problem, scene.body,
                               {.time_step = time_step, .tolerance = tolerance, .largest_steps = most_resting_steps},

@@ -23,6 +23,8 @@ struct Method {
 /// and viscosity α = 1 on approach (its CCBWAT-SPH).
 std::vector<Method> methods();
 
+inline constexpr double beam_length = 0.2, beam_density = 1000.0;
+
 /// A beam that is clamped at x = 0, of particles at the centres of cells, with a force on its free end.
 struct Beam {
   double height;
@@ -31,9 +33,8 @@ struct Beam {
   double force_y;
   double spacing;
   double poisson_ratio = 0.0;  ///< the paper gives none
+  double length = beam_length;
 };
-
-inline constexpr double beam_length = 0.2, beam_density = 1000.0;
 
 /// H = 2 cm and E = 20 MPa (errata.md T7), a force downwards at the free end.
 Beam cantilever(double force, double spacing);
@@ -81,8 +82,12 @@ struct Rest {
 double largest_gap(const Scene<2>& scene, const std::vector<Vector<2>>& displacement);
 inline constexpr double broken_gap = 1.5;
 
-/// By damped steps of 0.85 of the critical step, to a relative error of `tolerance`; ends where the beam breaks.
-Rest rest_of(const Scene<2>& scene, double tolerance);
+/// What relaxation takes of the critical step unless it is told.
+inline constexpr double resting_fraction = 0.85;
+
+/// By damped steps of a fraction, at most 0.85, of the critical step, to a relative error of `tolerance`; ends where
+/// the beam breaks.
+Rest rest_of(const Scene<2>& scene, double tolerance, double fraction = resting_fraction);
 
 /// A step that is safe to run with: the given part of the critical one of the body at rest, of `ul` of the lattice.
 double step_of(const Scene<2>& scene, double fraction);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "analysis/dispersion.hpp"
+#include "analysis/finite_strain.hpp"
 #include "model/band_path.hpp"
 #include "model/brillouin_zone.hpp"
 #include "model/lattice_index.hpp"
@@ -225,14 +226,21 @@ class LinearBands {
   analysis::ModeSteps steps_;
 };
 
-/// Those of `ul`, whose branches have no fixed kind, in the order of ω²; then the growth rate of a complex pair, which
-/// has a frequency too.
+/// M of the continuum in the same base state.
 template <int Dim>
-class UpdatedBands {
+Tensor<Dim> matrix_of_continuum(const Problem<Dim>& problem, const Vector<Dim>& k) {
+  if (!is_finite_strain(problem.scheme.formulation)) return analysis::continuum_matrix(problem, k);
+  return analysis::acoustic_tensor<Dim>(analysis::FiniteStrain<Dim>(problem).moduli(), k);
+}
+
+/// Those of `ul` and of finite strain, whose branches have no fixed kind, in the order of ω²; then the growth rate of a
+/// complex pair, which has a frequency too.
+template <int Dim>
+class OrderedBands {
  public:
   using Heights = std::vector<double>;
 
-  explicit UpdatedBands(const Problem<Dim>& problem) : problem_(problem), relation_(problem) {}
+  explicit OrderedBands(const Problem<Dim>& problem) : problem_(problem), relation_(problem) {}
 
   std::vector<std::string> names() const {
     auto names = continuum_names();
@@ -256,7 +264,7 @@ class UpdatedBands {
   }
   Heights of_continuum(const Vector<Dim>& k) const {
     Heights heights;
-    for (const auto omega_squared : analysis::squared_frequencies<Dim>(analysis::continuum_matrix(problem_, k), 0.0))
+    for (const auto omega_squared : analysis::squared_frequencies<Dim>(matrix_of_continuum(problem_, k), 0.0))
       heights.push_back(height(omega_squared, analysis::growth_rate_of(omega_squared)));
     return heights;
   }
@@ -346,7 +354,7 @@ io::LineFigure band_figure(const Case& input) {
     case Formulation::updated_lagrangian:
       break;
   }
-  return band_figure(input, problem, UpdatedBands<Dim>(problem));
+  return band_figure(input, problem, OrderedBands<Dim>(problem));
 }
 
 }  // namespace

@@ -18,6 +18,21 @@ struct Elastica {
 /// 0 < α ≤ 200. Accuracy: 1e-12. Tested in tests/study/test_elastica.cpp against an integration of the equation.
 Elastica elastica(double load);
 
+/// A strip of unit width, height H and Young's modulus E without Poisson's effect, its section's stiffnesses
+/// EA = E H, EI = E H³/12 and κGA = (5/6)(E/2) H.
+struct Strip {
+  double length;
+  double height;
+  double young_modulus;
+};
+
+/// The same cantilever with shear and stretch (Reissner 1972): with the constant force f of the section, its directions
+/// t(θ) and n(θ) and the moment M,
+///   θ' = M/EI,   r' = (1 + f·t/EA) t + (f·n/κGA) n,   M' = −(r' × f),   θ(0) = 0, M(L) = 0,
+/// solved by shooting. Displacements over the length, for a force (F_x, F_y) at the end with F_y < 0. What it leaves
+/// out of a solid is of the order of (H/L)² times its strain. Accuracy: 1e-10. Tested in tests/study/test_elastica.cpp.
+Elastica shearable_elastica(const Strip& strip, double force_y);
+
 /// θ_B by the paper's series, Eq. 3.3, for 0 < α < 1.5.
 double printed_end_angle(double load);
 

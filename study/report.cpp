@@ -22,7 +22,11 @@ constexpr auto makers = std::to_array<ReportMaker>({{"zhang-plate", zhang_plate_
                                                     {"gray-plate", gray_plate_report},
                                                     {"gray-array", gray_array_report},
                                                     {"softening", softening_report},
-                                                    {"growth-runs", growth_runs_report}});
+                                                    {"growth-runs", growth_runs_report},
+                                                    {"tran-duc", tran_duc_report},
+                                                    {"turek-hron", turek_hron_report},
+                                                    {"free-edges", free_edge_report},
+                                                    {"speed-vs-error", speed_report}});
 
 }  // namespace
 

@@ -72,6 +72,18 @@ Report gray_plate_report(const Progress& progress);
 /// Compressed periodic arrays of particles, Fig. 1 and conclusion 4 of Gray et al.
 Report gray_array_report(const Progress& progress);
 
+/// The cantilever and the truss of Tran-Duc et al., Secs. 3.1 and 3.2, by four schemes.
+Report tran_duc_report(const Progress& progress);
+
+/// The bar of Turek & Hron, CSM1 to CSM3, with a step that follows the limit of the moving bar.
+Report turek_hron_report(const Progress& progress);
+
+/// What free, renormalised edges take of the critical step, and which rules of other codes are unsafe there.
+Report free_edge_report(const Progress& progress);
+
+/// CPU seconds against error, of scenes at rest and of ways to a critical step.
+Report speed_report(const Progress& progress);
+
 /// What artificial stress takes of the stiffness of a stretched bar and of a bent beam.
 Report softening_report(const Progress& progress);
 

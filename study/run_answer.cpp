@@ -125,9 +125,16 @@ double step_of_one_e_folding(const StepTheory& theory, double time_step, double 
   return time_step;
 }
 
+/// Whether the step is to follow the limit of the body as it deforms. That of `tl-linear` does not change.
+bool is_followed(const Case& input) { return input.word("time_step") == "auto"; }
+
 /// `time_step`, or `step_fraction` of the critical step; where neither is given and the integrator grows at every step,
 /// no more of it than one e-folding allows.
 double chosen_time_step(const Case& input, const StepTheory& theory, double duration) {
+  if (is_followed(input)) {
+    if (!theory.critical_time_step) throw InvalidInput("time_step: auto needs a critical step to follow");
+    return input.required_number("step_fraction") * *theory.critical_time_step;
+  }
   if (const auto time_step = input.number("time_step")) {
     if (input.has("step_fraction")) throw InvalidInput("step_fraction: cannot be given with time_step");
     return *time_step;
@@ -145,15 +152,6 @@ bool has_grown(const SceneSummary& summary, bool can_grow, double energy_of_roun
              energy_that_shows_growth * (std::abs(summary.work) + summary.initial_energy + energy_of_rounding);
 }
 
-/// That of velocities which the rounding of stresses makes.
-template <int Dim>
-double energy_of_rounding(const Scene<Dim>& scene) {
-  const double velocity = velocity_of_rounding * p_wave_speed(scene.problem);
-  double mass = 0.0;
-  for (int a = 0; a < scene.body.size(); ++a) mass += scene.body.mass(a);
-  return 0.5 * mass * velocity * velocity;
-}
-
 Json to_json(const SceneSummary& summary) {
   Json values{{"time", summary.time},
               {"steps", summary.steps},
@@ -166,6 +164,12 @@ Json to_json(const SceneSummary& summary) {
               {"strain_energy", summary.strain_energy},
               {"work", summary.work},
               {"momentum_drift", number_or_null(summary.momentum_drift)}};
+  if (const auto& following = summary.following)
+    values["followed"] = {{"smallest_time_step", following->smallest_step},
+                          {"largest_time_step", following->largest_step},
+                          {"updates", following->work.updates},
+                          {"applications", following->work.applications},
+                          {"cost_share", following->cost_share}};
   if (summary.list_builds) values["list_builds"] = *summary.list_builds;
   values["lost_particles"] = summary.lost_particles.size();
   return values;
@@ -175,6 +179,12 @@ Json to_json(const NonFiniteValue& failure) {
   Json values{{"step", failure.step}, {"time", failure.time}, {"particle", failure.particle}, {"field", failure.field}};
   if (failure.term) values["term"] = *failure.term;
   return values;
+}
+
+Json to_json(const RunGrowth& growth) {
+  return {{"step", growth.step},
+          {"time", growth.time},
+          {"cause", growth.cause ? Json(name_of(*growth.cause)) : Json("unknown")}};
 }
 
 /// Writes what a run shows into the folder of a request; does nothing without one.
@@ -255,7 +265,12 @@ Json run_answer(const Case& input, const Request& request) {
   const StepTheory theory = step_theory(scene);
   const double time_step = chosen_time_step(input, theory, duration);
   RunFiles<Dim> files(scene.body, request.folder);
+  const Scheme& scheme = scene.problem.scheme;
+  const bool follows = is_followed(input) && is_finite_strain(scheme.formulation);
+  if (is_followed(input) && !is_total_lagrangian(scheme.formulation))
+    throw InvalidInput("time_step: auto is for total-Lagrangian schemes; there is no spectrum of a body of ul");
   SceneRunOptions<Dim> options{.time_step = time_step,
+                               .followed_fraction = follows ? input.number("step_fraction") : std::nullopt,
                                .duration = duration,
                                .snapshots = static_cast<long>(*input.number("snapshots")),
                                .probe_samples = largest_probe_table,
@@ -265,7 +280,6 @@ Json run_answer(const Case& input, const Request& request) {
       request.progress(static_cast<double>(step) / static_cast<double>(steps));
     };
   const auto result = run_scene(scene, options);
-  const Scheme& scheme = scene.problem.scheme;
   Json answer = body_name(input);
   answer.update({{"particles", scene.body.size()},
                  {"time_step", time_step},
@@ -285,9 +299,11 @@ Json run_answer(const Case& input, const Request& request) {
                                       {"velocity", components<Dim>(probe.velocity.back())},
                                       {"stress", rows<Dim>(probe.stress.back())}};
   if (result.failure) answer["failure"] = to_json(*result.failure);
+  if (result.growth) answer["growth"] = to_json(*result.growth);
   const bool linear = scheme.formulation == Formulation::total_lagrangian_linear;
   const bool can_grow = !linear || !theory.critical_time_step || time_step > *theory.critical_time_step;
-  answer["unstable"] = result.failure || has_grown(result.summary, can_grow, energy_of_rounding(scene)) ||
+  answer["unstable"] = result.failure || result.growth ||
+                       has_grown(result.summary, can_grow, energy_of_rounding(scene)) ||
                        !result.summary.lost_particles.empty();
   files.finish(result, answer);
   return answer;

@@ -7,9 +7,10 @@
 #include <cmath>
 #include <memory>
 
-#include "solver/total_lagrangian.hpp"
+#include "analysis/ellipticity.hpp"
+#include "solver/finite_strain_simulation.hpp"
 #include "solver/updated_simulation.hpp"
-#include "study/p_wave_speed.hpp"
+#include "study/thread_clock.hpp"
 
 namespace sphstab::study {
 namespace {
@@ -23,6 +24,11 @@ constexpr long look_every = 50;
 constexpr double largest_number = 1e100;
 /// A duration that is a whole number of time steps but for rounding takes no step more.
 constexpr double rounding_of_steps = 1e-12;
+
+/// Looks between two of them that compare energies, which cost two right-hand sides.
+constexpr long looks_between_energies = 10;
+/// Changes of the followed limit, relative, that do not change the step.
+constexpr double smallest_change = 1e-3;
 
 /// More steps than a run can take; far below the largest whole number.
 constexpr double most_steps = 1e15;
@@ -54,7 +60,8 @@ class LagrangianMotion {
   using State = solver::State<Dim>;
 
   explicit LagrangianMotion(const Scene<Dim>& scene)
-      : simulation_(solver::make_simulation(scene.problem, scene.body)),
+      : scene_(scene),
+        simulation_(solver::make_simulation(scene.problem, scene.body)),
         state_(scene.body.size()),
         force_at_start_(accelerations()) {
     if (!scene.velocity.empty()) state_.velocity = scene.velocity;
@@ -67,6 +74,27 @@ class LagrangianMotion {
   const State& state() const { return state_; }
   void go_back_to(const State& state) { state_ = state; }
   void advance(double time_step, long steps) { simulation_->advance(state_, time_step, steps); }
+
+  /// v + `time` times the acceleration.
+  void kick(double time) {
+    const Field<Dim> acceleration = accelerations();
+    for (int a = 0; a < particles(); ++a) state_.velocity[a] += time * acceleration[a];
+  }
+
+  /// Why a run of finite strain has grown since it was in this state.
+  std::optional<GrowthCause> cause_of_growth(const State& calm, double time_step) const {
+    const auto limit = critical_step_about(scene_.problem, scene_.body, calm.displacement);
+    if (limit && time_step > *limit) return GrowthCause::time_step;
+    const auto& simulation = dynamic_cast<const solver::FiniteStrainSimulation<Dim>&>(*simulation_);
+    Problem<Dim> strained = scene_.problem;
+    for (int a = 0; a < particles(); ++a) {
+      strained.deformation_gradient = simulation.deformation_gradient(state_, a);
+      if (!(strained.deformation_gradient.determinant() > 0.0) ||
+          analysis::weakest_direction(strained).squared_speed < 0.0)
+        return GrowthCause::loss_of_ellipticity;
+    }
+    return std::nullopt;
+  }
 
   const Vector<Dim>& displacement(int a) const { return state_.displacement[a]; }
   const Vector<Dim>& velocity(int a) const { return state_.velocity[a]; }
@@ -97,6 +125,7 @@ class LagrangianMotion {
   std::optional<long> list_builds() const { return std::nullopt; }
 
  private:
+  const Scene<Dim>& scene_;
   std::unique_ptr<solver::TotalLagrangian<Dim>> simulation_;
   State state_;
   Field<Dim> force_at_start_;
@@ -124,6 +153,10 @@ class UpdatedMotion {
   const State& state() const { return state_; }
   void go_back_to(const State& state) { state_ = state; }
   void advance(double time_step, long steps) { simulation_.advance(state_, time_step, steps); }
+
+  /// The step of `ul` is not followed, and its growth judged at the end.
+  void kick(double) {}
+  std::optional<GrowthCause> cause_of_growth(const State&, double) const { return std::nullopt; }
 
   Vector<Dim> displacement(int a) const { return state_.position[a] - start_[a]; }
   const Vector<Dim>& velocity(int a) const { return state_.velocity[a]; }
@@ -189,13 +222,15 @@ class Run {
   Run(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options)
       : scene_(scene),
         options_(options),
-        steps_(static_cast<long>(std::ceil(options.duration / options.time_step * (1.0 - rounding_of_steps)))),
+        follower_(make_follower(scene, options)),
+        time_step_(first_step()),
+        steps_(static_cast<long>(std::ceil(options.duration / time_step_ * (1.0 - rounding_of_steps)))),
         sample_stride_(options.probe_samples ? (steps_ + *options.probe_samples - 1) / *options.probe_samples : 1),
         snapshots_(std::min(options.snapshots, steps_)),
         motion_(scene),
         last_finite_(motion_.state()),
         free_(free_directions(scene.body)),
-        momentum_at_start_(momentum()),
+        momentum_at_change_(momentum()),
         initial_energy_(kinetic_energy() + motion_.strain_energy()) {
     for (int a = 0; a < motion_.particles(); ++a) total_force_ += motion_.mass(a) * motion_.constant_force()[a];
     for (const auto& probe : scene.probes) probes_.push_back({probe.name, probe.particle, {}, {}, {}});
@@ -203,20 +238,59 @@ class Run {
 
   SceneRunResult<Dim> result() {
     observe();
-    while (step_ < steps_ && advance_to(next_event())) observe();
-    if (failure_) {
+    while (step_ < steps_ && !growth_ && advance_to(next_event())) observe();
+    if (failure_ || growth_) {
       look();
       if (options_.snapshots > 0 && step_ != step_of_last_snapshot_) take_snapshot();
       if (!probes_.empty() && time() != sample_times_.back()) sample();
     }
-    return {snapshot(), sample_times_, probes_, summary(), failure_};
+    return {snapshot(), sample_times_, probes_, summary(), failure_, growth_};
   }
 
  private:
-  double time() const { return static_cast<double>(step_) * options_.time_step; }
+  using Follower = StepFollower<Dim>;
+
+  static std::optional<Follower> make_follower(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options) {
+    if (!options.followed_fraction) return std::nullopt;
+    return std::optional<Follower>(std::in_place, scene.problem, scene.body);
+  }
+
+  double first_step() const {
+    if (!follower_) return options_.time_step;
+    if (!follower_->critical_step())
+      throw InvalidInput("time_step: auto needs a body in which some mode has a restoring force");
+    return *options_.followed_fraction * *follower_->critical_step();
+  }
+
+  double time() const { return time_of_change_ + static_cast<double>(step_ - step_of_change_) * time_step_; }
 
   long steps_of_snapshot(long index) const {
-    return std::lround(static_cast<double>(index) * static_cast<double>(steps_) / static_cast<double>(snapshots_));
+    const double count = static_cast<double>(index) / static_cast<double>(snapshots_);
+    if (step_of_change_ == 0)
+      return std::lround(static_cast<double>(index) * static_cast<double>(steps_) / static_cast<double>(snapshots_));
+    return std::min(steps_, step_of_change_ + std::lround((count * options_.duration - time_of_change_) / time_step_));
+  }
+
+  /// Another step from here on. Velocities of `leapfrog` are half a step behind, of whichever step.
+  void change_step(double time_step) {
+    momentum_at_change_ = momentum_without_drift();
+    time_of_change_ = time();
+    step_of_change_ = step_;
+    if (scene_.problem.integrator == Integrator::leapfrog) motion_.kick(0.5 * (time_step_ - time_step));
+    time_step_ = time_step;
+    steps_ = step_ + static_cast<long>(
+                         std::ceil((options_.duration - time_of_change_) / time_step * (1.0 - rounding_of_steps)));
+    smallest_step_ = std::min(smallest_step_, time_step);
+    largest_step_ = std::max(largest_step_, time_step);
+  }
+
+  void follow() {
+    std::vector<Vector<Dim>> displacement;
+    for (int a = 0; a < motion_.particles(); ++a) displacement.push_back(motion_.displacement(a));
+    follower_->update(displacement);
+    step_of_update_ = step_ + follower_->interval();
+    const double time_step = *options_.followed_fraction * *follower_->critical_step();
+    if (std::abs(time_step / time_step_ - 1.0) > smallest_change) change_step(time_step);
   }
 
   bool snapshots_left() const { return snapshots_ > 0 && next_snapshot_ <= snapshots_; }
@@ -225,14 +299,15 @@ class Run {
     const auto next_multiple = [this](long stride) { return (step_ / stride + 1) * stride; };
     long next = std::min(steps_, next_multiple(look_every));
     if (!probes_.empty()) next = std::min(next, next_multiple(sample_stride_));
-    if (snapshots_left()) next = std::min(next, steps_of_snapshot(next_snapshot_));
+    if (snapshots_left()) next = std::min(next, std::max(step_ + 1, steps_of_snapshot(next_snapshot_)));
+    if (follower_) next = std::min(next, step_of_update_);
     return next;
   }
 
   /// False if a number was not finite on the way; then the state is that of the step before.
   bool advance_to(long end) {
     last_finite_ = motion_.state();
-    motion_.advance(options_.time_step, end - step_);
+    motion_.advance(time_step_, end - step_);
     if (motion_.lost_number()) {
       motion_.go_back_to(last_finite_);
       find_failure();
@@ -246,10 +321,10 @@ class Run {
   void find_failure() {
     while (!motion_.lost_number()) {
       last_finite_ = motion_.state();
-      motion_.advance(options_.time_step, 1);
+      motion_.advance(time_step_, 1);
       ++step_;
     }
-    const LostNumber lost = motion_.failure(last_finite_, options_.time_step);
+    const LostNumber lost = motion_.failure(last_finite_, time_step_);
     failure_ = {step_, time(), lost.particle, lost.field, lost.term};
     motion_.go_back_to(last_finite_);
     --step_;
@@ -258,7 +333,26 @@ class Run {
   void observe() {
     if (step_ % look_every == 0 || step_ == steps_) look();
     if ((step_ % sample_stride_ == 0 || step_ == steps_) && !probes_.empty()) sample();
-    if (snapshots_left() && step_ == steps_of_snapshot(next_snapshot_)) take_snapshot();
+    if (snapshots_left() && step_ >= steps_of_snapshot(next_snapshot_)) take_snapshot();
+    if (watches_growth_ && step_ % (look_every * looks_between_energies) == 0) watch_growth();
+    if (follower_ && step_ >= step_of_update_ && step_ < steps_) follow();
+  }
+
+  void watch_growth() {
+    largest_work_ = std::max(largest_work_, std::abs(work()));
+    const double given = initial_energy_ + largest_work_ + energy_of_rounding(scene_);
+    if (kinetic_energy() + motion_.strain_energy() <= energy_of_growth * given) {
+      calm_ = motion_.state();
+      return;
+    }
+    growth_ = {step_, time(), motion_.cause_of_growth(calm_, time_step_)};
+  }
+
+  double work() const {
+    double work = 0.0;
+    for (int a = 0; a < motion_.particles(); ++a)
+      work += motion_.mass(a) * motion_.constant_force()[a].dot(motion_.displacement(a));
+    return work;
   }
 
   void look() {
@@ -281,15 +375,15 @@ class Run {
     return sum;
   }
 
-  /// Constant forces f add nf Δt to the momentum p of the start up to step n. Damping leaves qⁿ p + (f/c)(1 − qⁿ) with
-  /// q = 1 − cΔt of a leapfrog step and (1 − ½cΔt)² of a Verlet step.
+  /// Constant forces f add nf Δt to the momentum p of the start, or of the last change of the step, up to step n.
+  /// Damping leaves qⁿ p + (f/c)(1 − qⁿ) with q = 1 − cΔt of a leapfrog step and (1 − ½cΔt)² of a Verlet step.
   Vector<Dim> momentum_without_drift() const {
-    if (!scene_.problem.scheme.damping) return momentum_at_start_ + time() * total_force_;
-    const double rate = scene_.problem.scheme.damping->rate, decay = rate * options_.time_step;
+    if (!scene_.problem.scheme.damping) return momentum_at_change_ + (time() - time_of_change_) * total_force_;
+    const double rate = scene_.problem.scheme.damping->rate, decay = rate * time_step_;
     const double q =
         scene_.problem.integrator == Integrator::leapfrog ? 1.0 - decay : (1.0 - 0.5 * decay) * (1.0 - 0.5 * decay);
-    const double kept = std::pow(q, step_);
-    return kept * momentum_at_start_ + (1.0 - kept) / rate * total_force_;
+    const double kept = std::pow(q, step_ - step_of_change_);
+    return kept * momentum_at_change_ + (1.0 - kept) / rate * total_force_;
   }
 
   void sample() {
@@ -321,9 +415,6 @@ class Run {
   SceneSummary summary() {
     const long right_hand_sides = motion_.right_hand_sides();
     const auto list_builds = motion_.list_builds();
-    double work = 0.0;
-    for (int a = 0; a < motion_.particles(); ++a)
-      work += motion_.mass(a) * motion_.constant_force()[a].dot(motion_.displacement(a));
     std::optional<double> momentum_drift;
     if (free_.any()) momentum_drift = moves() ? largest_momentum_drift_ / largest_momentum_ : 0.0;
     return {.time = time(),
@@ -335,10 +426,17 @@ class Run {
             .initial_energy = initial_energy_,
             .kinetic_energy = kinetic_energy(),
             .strain_energy = motion_.strain_energy(),
-            .work = work,
+            .work = work(),
             .momentum_drift = momentum_drift,
+            .following = following(),
             .list_builds = list_builds,
             .lost_particles = motion_.lost_particles()};
+  }
+
+  std::optional<StepFollowing> following() const {
+    if (!follower_) return std::nullopt;
+    return StepFollowing{smallest_step_, largest_step_, follower_->work(),
+                         follower_->work().cpu_seconds / (thread_seconds() - cpu_seconds_at_start_)};
   }
 
   /// Whether anything moves at more than what the rounding of the stresses of a body at rest brings about.
@@ -351,7 +449,7 @@ class Run {
   /// ½ Σ m v² with velocities at the time of the displacements. Those of the start are taken as they are.
   double kinetic_energy() {
     const bool behind = scene_.problem.integrator == Integrator::leapfrog && step_ > 0;
-    const double kick = behind ? 0.5 * options_.time_step : 0.0;
+    const double kick = behind ? 0.5 * time_step_ : 0.0;
     const Field<Dim> force = behind ? motion_.accelerations() : Field<Dim>(motion_.particles(), Vector<Dim>::Zero());
     double energy = 0.0;
     for (int a = 0; a < motion_.particles(); ++a)
@@ -361,14 +459,22 @@ class Run {
 
   const Scene<Dim>& scene_;
   const SceneRunOptions<Dim>& options_;
+  double cpu_seconds_at_start_ = thread_seconds();
+  std::optional<Follower> follower_;
+  double time_step_;
+  double smallest_step_ = time_step_, largest_step_ = time_step_;
   long steps_;
   long sample_stride_;
   long snapshots_;
   long step_ = 0;
+  /// When the step was last changed, and when it will be looked at again.
+  long step_of_change_ = 0;
+  double time_of_change_ = 0.0;
+  long step_of_update_ = follower_ ? follower_->interval() : 0;
   Motion motion_;
   typename Motion::State last_finite_;
   Directions<Dim> free_;
-  Vector<Dim> momentum_at_start_;
+  Vector<Dim> momentum_at_change_;
   double initial_energy_;
   Vector<Dim> total_force_ = Vector<Dim>::Zero();
 
@@ -382,17 +488,25 @@ class Run {
   double largest_momentum_drift_ = 0.0;
   double largest_momentum_ = 0.0;
   std::optional<NonFiniteValue> failure_;
+  bool watches_growth_ = is_finite_strain(scene_.problem.scheme.formulation);
+  double largest_work_ = 0.0;
+  typename Motion::State calm_ = last_finite_;  ///< when growth had not been seen yet
+  std::optional<RunGrowth> growth_;
 };
 
 }  // namespace
 
 template <int Dim>
 SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options) {
-  require_positive("time_step", options.time_step);
+  if (options.followed_fraction && !is_finite_strain(scene.problem.scheme.formulation))
+    throw InvalidInput(
+        fmt::format("time_step: auto follows the limit of tl-corotated and tl-pk1, which changes, not of {}",
+                    name_of(scene.problem.scheme.formulation)));
+  if (!options.followed_fraction) require_positive("time_step", options.time_step);
   require_positive("duration", options.duration);
   if (const auto particle = first_not_finite<Dim>(scene.velocity))
     throw InvalidInput(fmt::format("velocity: that of particle {} is beyond {:g}", *particle, largest_number));
-  if (!(options.duration / options.time_step <= most_steps))
+  if (!options.followed_fraction && !(options.duration / options.time_step <= most_steps))
     throw InvalidInput(
         fmt::format("duration: {} takes more than {} steps of {}", options.duration, most_steps, options.time_step));
   switch (scene.problem.scheme.formulation) {

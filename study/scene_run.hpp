@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "model/scene.hpp"
+#include "study/p_wave_speed.hpp"
+#include "study/step_follower.hpp"
 
 namespace sphstab::study {
 
@@ -27,9 +29,21 @@ struct Snapshot {
 /// Velocities below this part of c_p are what the rounding of stresses makes.
 inline constexpr double velocity_of_rounding = 1e-14;
 
+/// The kinetic energy that the rounding of stresses makes.
+template <int Dim>
+double energy_of_rounding(const Scene<Dim>& scene) {
+  const double velocity = velocity_of_rounding * p_wave_speed(scene.problem);
+  double mass = 0.0;
+  for (int a = 0; a < scene.body.size(); ++a) mass += scene.body.mass(a);
+  return 0.5 * mass * velocity * velocity;
+}
+
 template <int Dim>
 struct SceneRunOptions {
-  double time_step;
+  double time_step;  ///< of the whole run, or of its beginning if the limit is followed
+  /// Of finite strain: the step is this part of the critical step of the body as it deforms (study/step_follower.hpp);
+  /// `time_step` does not count.
+  std::optional<double> followed_fraction = std::nullopt;
   double duration;     ///< the run ends with the first step at or after it
   long snapshots = 0;  ///< equal intervals (no more than steps), with a snapshot at either end, the last finite state
                        ///< included; 0: none
@@ -58,6 +72,27 @@ struct NonFiniteValue {
   std::optional<std::string_view> term = {};  ///< of `ul`, that first made no number: a solver::UpdatedTerm
 };
 
+/// Why a run of finite strain or `ul` grows.
+enum class GrowthCause {
+  time_step,           ///< it is above the critical step of the state
+  tension,             ///< of `ul`: the particles are pulled apart
+  loss_of_ellipticity  ///< the law has no waves in some direction of some particle's strain
+};
+
+/// A run that has more energy than the start and the loads have given it.
+struct RunGrowth {
+  long step;
+  double time;
+  std::optional<GrowthCause> cause;
+};
+
+/// How the limit of a run was followed.
+struct StepFollowing {
+  double smallest_step, largest_step;
+  FollowingWork work;
+  double cost_share;  ///< CPU time of the updates over that of the run
+};
+
 /// Of the largest values, those at every 50th step and at the last one. Velocities of `leapfrog` are first brought to
 /// the time of the displacements for the kinetic energy.
 struct SceneSummary {
@@ -76,6 +111,7 @@ struct SceneSummary {
   /// Largest departure of the momentum from that of the start and what the loads have given, over the largest Σ m |v|,
   /// in the directions in which no particle is clamped; absent if there are none.
   std::optional<double> momentum_drift;
+  std::optional<StepFollowing> following = {};
   std::optional<long> list_builds = {};  ///< of `ul`: searches for neighbours
   /// Particles that have no neighbour within the support any more, at the end; none in `tl-linear`.
   std::vector<int> lost_particles = {};
@@ -88,7 +124,12 @@ struct SceneRunResult {
   std::vector<ProbeHistory<Dim>> probes;
   SceneSummary summary;
   std::optional<NonFiniteValue> failure;  ///< then the run stopped early
+  std::optional<RunGrowth> growth;        ///< of finite strain: then, too
 };
+
+/// A run has grown where its kinetic and strain energy are this many times what the start and the largest work of the
+/// loads have given: far more than the integrator's error and, in `tl-corotated`, the strain that is no potential.
+inline constexpr double energy_of_growth = 3.0;
 
 /// Runs the scene from its base state with the velocities that it starts with: those of half a step before with
 /// `leapfrog`. A run with non-finite values stops at the exact step of the first one, whatever the interval at which it
@@ -104,3 +145,15 @@ extern template SceneRunResult<2> run_scene(const Scene<2>&, const SceneRunOptio
 extern template SceneRunResult<3> run_scene(const Scene<3>&, const SceneRunOptions<3>&);
 
 }  // namespace sphstab::study
+
+namespace sphstab {
+
+template <>
+struct Names<study::GrowthCause> {
+  static constexpr std::array<Named<study::GrowthCause>, 3> table{
+      {{study::GrowthCause::time_step, "time step"},
+       {study::GrowthCause::tension, "tension"},
+       {study::GrowthCause::loss_of_ellipticity, "loss of ellipticity"}}};
+};
+
+}  // namespace sphstab

@@ -50,6 +50,22 @@ TEST_CASE("a weak load bends a cantilever as linear theory says", "[fast]") {
   }
 }
 
+TEST_CASE("a strip with shear and stretch becomes the elastica when it is thin", "[fast]") {
+  const double load = 0.75, exact = elastica(load).drop;
+  double before = 0.0;
+  for (const double height : {0.04, 0.02, 0.01}) {
+    const double force = load * std::pow(height, 3) / 12.0;
+    const Elastica found = shearable_elastica({1.0, height, 1.0}, -force);
+    const double excess = found.drop / exact - 1.0;
+    CHECK(excess > 0.0);
+    if (before != 0.0) CHECK(before / excess == Approx(4.0).epsilon(0.01));  // of the order (H/L)²
+    before = excess;
+  }
+  // Small deflection: F L³/(3EI) + F L/(κGA).
+  const double force = 1e-9, bending = force / (3.0 / 12.0 * 1e-3), shear = force / (5.0 / 12.0 * 0.1);
+  CHECK(shearable_elastica({1.0, 0.1, 1.0}, -force).drop == Approx(bending + shear).epsilon(1e-8));
+}
+
 TEST_CASE("the paper's numbers for its largest load are those of the elastica", "[fast]") {
   const Elastica found = elastica(0.75);  // L = 0.2 m: 47.12 mm and 6.792 mm, θ_B = 0.358
   CHECK(0.2 * found.drop == Approx(0.04712).margin(0.000005));

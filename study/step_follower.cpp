@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "study/step_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/thread_clock.hpp"
+
+namespace sphstab::study {
+namespace {
+
+/// Applications of an update, and the noise beside the mode it starts from: a new mode of a corner grows by the fourth
+/// power or so of the ratio of eigenvalues in so many.
+constexpr int applications = 8;
+constexpr double noise_beside_mode = 0.05;
+/// Steps between two updates.
+constexpr long first_interval = 1000, least_interval = 250, largest_interval = 8000;
+/// Relative changes of the limit at which the interval is doubled and halved.
+constexpr double small_change = 1e-3, large_change = 1e-2;
+/// Of the limits that are converged: Δt is right to half of it.
+constexpr double converged = 1e-6;
+
+template <int Dim>
+void flatten(const std::vector<Vector<Dim>>& displacement, Eigen::VectorXd& flat) {
+  flat.resize(Dim * static_cast<Eigen::Index>(displacement.size()));
+  for (std::size_t a = 0; a < displacement.size(); ++a) flat.segment<Dim>(Dim * a) = displacement[a];
+}
+
+}  // namespace
+
+template <int Dim>
+StepFollower<Dim>::StepFollower(const Problem<Dim>& problem, const Body<Dim>& body)
+    : operator_(problem, body), interval_(first_interval) {
+  const double start = thread_seconds();
+  critical_step_ = limit_about({.tolerance = converged});
+  work_.cpu_seconds += thread_seconds() - start;
+}
+
+template <int Dim>
+std::optional<double> StepFollower<Dim>::limit_about(const analysis::DeformedLimitOptions& options) {
+  analysis::DeformedLimit limit = analysis::deformed_limit(operator_, options);
+  mode_ = std::move(limit.largest.vector);
+  ++work_.updates;
+  work_.applications += limit.applications;
+  return limit.critical_time_step;
+}
+
+template <int Dim>
+void StepFollower<Dim>::update(const std::vector<Vector<Dim>>& displacement) {
+  const double start = thread_seconds();
+  flatten<Dim>(displacement, flat_);
+  try {
+    operator_.set_state(flat_);
+  } catch (const InvalidInput&) {  // turned inside out: what follows will show
+    interval_ = least_interval;
+    return;
+  }
+  const auto limit = limit_about({.dimension = applications,
+                                  .most = applications,
+                                  .start = mode_,
+                                  .noise = noise_beside_mode,
+                                  .seed = static_cast<unsigned>(work_.updates)});
+  work_.cpu_seconds += thread_seconds() - start;
+  if (!limit || !critical_step_) return;
+  const double change = std::abs(*limit / *critical_step_ - 1.0);
+  if (change < small_change) interval_ = std::min(2 * interval_, largest_interval);
+  if (change > large_change) interval_ = std::max(interval_ / 2, least_interval);
+  critical_step_ = limit;
+}
+
+template <int Dim>
+std::optional<double> critical_step_about(const Problem<Dim>& problem, const Body<Dim>& body,
+                                          const std::vector<Vector<Dim>>& displacement) {
+  analysis::DeformedBodyOperator<Dim> body_operator(problem, body);
+  Eigen::VectorXd flat;
+  flatten<Dim>(displacement, flat);
+  try {
+    body_operator.set_state(flat);
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+  return analysis::deformed_limit(body_operator, {.tolerance = converged}).critical_time_step;
+}
+
+template class StepFollower<1>;
+template class StepFollower<2>;
+template class StepFollower<3>;
+template std::optional<double> critical_step_about(const Problem<1>&, const Body<1>&, const std::vector<Vector<1>>&);
+template std::optional<double> critical_step_about(const Problem<2>&, const Body<2>&, const std::vector<Vector<2>>&);
+template std::optional<double> critical_step_about(const Problem<3>&, const Body<3>&, const std::vector<Vector<3>>&);
+
+}  // namespace sphstab::study

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/deformed_limit.hpp"
+
+namespace sphstab::study {
+
+/// What it has taken to follow the limit of a body.
+struct FollowingWork {
+  long updates = 0;
+  long applications = 0;     ///< of the linearised operator
+  double cpu_seconds = 0.0;  ///< of the thread
+};
+
+/// The critical step of a body of finite strain as it deforms. The first limit, at rest, is converged; each later one
+/// is an estimate from a few applications of the operator about the present state, which start from the mode of the one
+/// before with noise beside it, so that a mode that overtakes is found. Estimates come from inside the spectrum of
+/// `tl-pk1`: they are above the limit, by what the fraction of it that a run takes has to leave room for.
+///
+/// The next update is due after a number of steps that is doubled where the limit has hardly changed and halved where
+/// it has changed much. A step and an update cost 2 and 2 × `applications` sums over the pairs and the moduli of every
+/// particle, so that at the least interval an update takes a part of `least_interval`⁻¹ × 20. Nothing depends on how
+/// fast the machine is. Tested in tests/study/test_step_follower.cpp.
+template <int Dim>
+class StepFollower {
+ public:
+  /// Keeps references to both.
+  StepFollower(const Problem<Dim>& problem, const Body<Dim>& body);
+
+  /// Of the body at rest in its base state, or of the last update; nothing where no mode has a restoring force.
+  std::optional<double> critical_step() const { return critical_step_; }
+  /// Steps until the next update is due.
+  long interval() const { return interval_; }
+
+  /// About this displacement. Nothing changes where the state has no limit: a particle is turned inside out.
+  void update(const std::vector<Vector<Dim>>& displacement);
+
+  const FollowingWork& work() const { return work_; }
+
+ private:
+  std::optional<double> limit_about(const analysis::DeformedLimitOptions& options);
+
+  analysis::DeformedBodyOperator<Dim> operator_;
+  Eigen::VectorXd mode_;
+  Eigen::VectorXd flat_;
+  std::optional<double> critical_step_;
+  long interval_;
+  FollowingWork work_;
+};
+
+/// The critical step of a body of finite strain about a displacement, converged; nothing where there is none.
+template <int Dim>
+std::optional<double> critical_step_about(const Problem<Dim>& problem, const Body<Dim>& body,
+                                          const std::vector<Vector<Dim>>& displacement);
+
+extern template class StepFollower<1>;
+extern template class StepFollower<2>;
+extern template class StepFollower<3>;
+extern template std::optional<double> critical_step_about(const Problem<1>&, const Body<1>&,
+                                                          const std::vector<Vector<1>>&);
+extern template std::optional<double> critical_step_about(const Problem<2>&, const Body<2>&,
+                                                          const std::vector<Vector<2>>&);
+extern template std::optional<double> critical_step_about(const Problem<3>&, const Body<3>&,
+                                                          const std::vector<Vector<3>>&);
+
+}  // namespace sphstab::study
