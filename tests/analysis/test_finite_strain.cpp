@@ -515,6 +515,37 @@ TEST_CASE("tension of any size makes no finite strain state grow", "[fast]") {
     }
 }
 
+TEST_CASE("a bar has its closed stiffness, and loses it at a third of the square of its length", "[fast]") {
+  const auto bar = [](const Scheme& scheme, double stretch) {
+    auto problem = finite_strain_problem<1>(scheme.formulation, Lattice<1>(LatticeKind::chain, 1.0),
+                                            KernelFamily::quintic_spline, 1.2, Tensor<1>(stretch));
+    problem.scheme = scheme;
+    return problem;
+  };
+  for (const double l : {0.7, 1.0, 1.6}) {
+    const auto problem = bar(corotated(), l);
+    const auto [lambda, G, kappa] = problem.material.lame(Plane::strain);
+    const double p_wave = lambda + 2.0 * G;
+    const std::array moduli{p_wave * l, p_wave * 0.5 * (3.0 * l * l - 1.0),
+                            G + (G + lambda * (1.0 - std::log(l))) / (l * l)};
+    for (std::size_t i = 0; i < moduli.size(); ++i) {
+      const BulkModes<1> modes(bar(every_scheme()[i], l));
+      const double speed = std::sqrt(moduli[i] / problem.material.density());
+      CHECK(std::get<ConditionallyStable<1>>(modes.limit()).critical_time_step ==
+            Approx(2.0 / (modes.symbol_maximum() * speed)).epsilon(rounding));
+      CHECK(weakest_direction(bar(every_scheme()[i], l)).squared_speed == Approx(speed * speed).epsilon(rounding));
+    }
+  }
+  const double edge = 1.0 / std::sqrt(3.0);
+  CHECK(std::holds_alternative<ConditionallyStable<1>>(bulk_limit(bar(pk1(), edge + 1e-9))));
+  auto crushed = bar(pk1(), edge - 1e-3);
+  const auto free = std::get<NeverStable<1>>(bulk_limit(crushed));
+  crushed.scheme.damping = Damping{0.1};
+  const auto damped = std::get<NeverStable<1>>(bulk_limit(crushed));
+  // r² + c r − g² = 0.
+  CHECK(damped.growth_rate == Approx(std::hypot(0.05, free.growth_rate) - 0.05).epsilon(rounding));
+}
+
 TEST_CASE("neighbours on a line cannot renormalise a gradient", "[fast]") {
   auto problem = finite_strain_problem<2>(Formulation::total_lagrangian_corotated,
                                           Lattice<2>(LatticeKind::staggered, 1.0), KernelFamily::cubic_spline, 1.3);
