@@ -60,7 +60,7 @@ TEST_CASE("both ends of the spectra of random matrices are those of the dense so
 
 TEST_CASE("an estimate from few applications has the residual that it states", "[fast]") {
   const Eigen::MatrixXd A = random_matrix(80, 5), B = A * A.transpose() + 5.0 * A;
-  for (const int applications : {4, 9, 17, 40}) {
+  for (const int applications : {4, 9, 17}) {
     const auto found = arnoldi(product(B), random_vector(80, 1), {.dimension = 10, .most = applications});
     CHECK(found.applications == applications);
     const double residual = (B * found.vector - found.value * found.vector).norm();

