@@ -7,7 +7,8 @@ namespace sphstab {
 namespace analysis {
 
 /// The branch of a wave. In a strained base state the longitudinal polarisation is `coupling` D of AcousticForm, not
-/// quite along D; the transverse ones are normal to D, two of them in 3-D. A complex pair of `ul` is coupled: neither.
+/// quite along D; the transverse ones are normal to D, two of them in 3-D. In `ul` and finite strain the polarisation
+/// decides, the nearer to k or to its normal. A complex pair of `ul` is coupled: neither.
 enum class Branch { longitudinal, transverse, coupled };
 
 }  // namespace analysis
