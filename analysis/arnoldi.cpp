@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -99,6 +100,7 @@ Eigen::MatrixXd wanted_half(const Eigen::EigenSolver<Eigen::MatrixXd>& ritz, con
 }  // namespace
 
 ArnoldiResult arnoldi(const LinearOperator& apply, const Eigen::VectorXd& start, const ArnoldiOptions& options) {
+  assert(options.dimension >= 4);  // half of them, and both of a pair, leave room
   KrylovSpace space(start, std::min<int>(options.dimension, static_cast<int>(start.size())));
   for (long applications = 0;;) {
     bool open = true;

@@ -18,7 +18,7 @@ enum class Extreme {
 
 struct ArnoldiOptions {
   Extreme extreme = Extreme::rightmost;
-  int dimension = 30;       ///< of the Krylov space: vectors that are kept, one more in all
+  int dimension = 30;       ///< of the Krylov space, 4 or more: vectors that are kept, one more in all
   double tolerance = 1e-8;  ///< of the residual, relative to the largest modulus of a Ritz value
   long most = 4000;         ///< applications; `dimension` of them or fewer make an estimate without a restart
 };

@@ -23,7 +23,8 @@ BodyOperator<Dim>::BodyOperator(const Problem<Dim>& problem, const Body<Dim>& bo
     for (int p = pairs.first[a]; p < pairs.first[a + 1]; ++p) sum += gradient_[p];
     own_gradient_.push_back(-sum);
     const double N = Base::normalisation_[a];
-    moduli_.push_back({lame[body.material[a]].shear_modulus / N, lame[body.material[a]].lambda / N});
+    const auto& [lambda, shear_modulus, volume_factor] = lame[body.material[a]];
+    moduli_.push_back({shear_modulus / N, lambda / N});
   }
 }
 

@@ -13,8 +13,9 @@ template <int Dim>
 std::vector<std::vector<int>> connected_parts(const NeighbourPairs<Dim>& pairs);
 
 /// Displacements that move each connected part as a rigid one, translations and infinitesimal rotations, a column each,
-/// linearly independent: those that leave clamped components where they are. The sums of Eq. 9 feel no translation, but
-/// rotations near a free edge, where Σ V r ⊗ ∇W is no multiple of I. Tested in tests/analysis/test_body_modes.cpp.
+/// linearly independent: those that leave clamped components where they are. No sum feels a translation; those of Eq. 9
+/// feel rotations near a free edge, where Σ V r ⊗ ∇W is no multiple of I, and renormalised ones (finite strain) do not.
+/// Tested in tests/analysis/test_body_modes.cpp.
 template <int Dim>
 Eigen::MatrixXd rigid_motions(const Body<Dim>& body);
 

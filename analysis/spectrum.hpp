@@ -70,12 +70,12 @@ struct BodyLimit {
   Eigen::VectorXd displacement;  ///< of the mode, components of a particle adjacent, clamped ones 0; up to a factor
 };
 
-/// The largest ω² of M d²s/dt² = −S s (analysis/body_operator.hpp) by Lanczos, never above the true one but for
-/// rounding, and an upper bound on it (docs/spectrum.md): with `factorisation` within the tolerance or what the
-/// factorisation rounds. Absent `options.bound`: a factorisation up to 100 000 particles if it takes minutes and 4 GB
-/// at most, otherwise the lesser of the two other bounds. Throws InvalidInput if no particle feels a force, for what
-/// the scheme does not define on a body, and for a factorisation that is asked for and too large (`upper_bound`).
-/// Tested in tests/analysis/test_spectrum.cpp.
+/// The largest ω² of M d²s/dt² = −S s (analysis/body_operator.hpp), of finite strain about rest, by Lanczos, never
+/// above the true one but for rounding, and an upper bound on it (docs/spectrum.md): with `factorisation` within the
+/// tolerance or what the factorisation rounds. Absent `options.bound`: a factorisation up to 100 000 particles if it
+/// takes minutes and 4 GB at most, otherwise the lesser of the two other bounds. Throws InvalidInput if no particle
+/// feels a force, for what the scheme does not define on a body, and for a factorisation that is asked for and too
+/// large (`upper_bound`). Tested in tests/analysis/test_spectrum.cpp.
 template <int Dim>
 BodyLimit body_limit(const Problem<Dim>& problem, const Body<Dim>& body, const BodyLimitOptions& options = {});
 
@@ -92,9 +92,9 @@ template <int Dim>
 std::vector<BodyMode> lowest_modes(const Problem<Dim>& problem, const Body<Dim>& body, int count);
 
 /// The displacement in equilibrium under body.load, S s = M load, by conjugate gradients, orthogonal to the motions
-/// that meet no resistance. Throws InvalidInput where the load drives such a motion: there is no equilibrium; and for
-/// `density_in_momentum` equation-of-state, which is not linear in the load. Tested in
-/// tests/analysis/test_body_modes.cpp.
+/// that meet no resistance; linear, so that of finite strain under small loads. Throws InvalidInput where the load
+/// drives such a motion: there is no equilibrium; and for `density_in_momentum` equation-of-state, which is not linear
+/// in the load. Tested in tests/analysis/test_body_modes.cpp.
 template <int Dim>
 Eigen::VectorXd static_displacement(const Problem<Dim>& problem, const Body<Dim>& body);
 

@@ -52,8 +52,8 @@ class PlainFiniteStrain {
     return forces;
   }
 
-  /// M^−½ K M^−½ over all components, clamped ones 0, K = −∂force/∂x by central differences at X + s: their error is the
-  /// square of the difference.
+  /// M^−½ K M^−½ over all components, clamped ones 0, K = −∂force/∂x by central differences at X + s: their error is
+  /// the square of the difference.
   Eigen::MatrixXd stiffness(const Eigen::VectorXd& displacement) const {
     const Precise difference = Precise(1e-12);
     std::vector<PreciseVector> x;

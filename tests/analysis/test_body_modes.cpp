@@ -6,7 +6,7 @@
 #include "analysis/body_operator.hpp"
 #include "analysis/rigid_motions.hpp"
 #include "analysis/spectrum.hpp"
-#include "tests/analysis/bodies.hpp"
+#include "tests/analysis/plain_finite_strain.hpp"
 
 using namespace sphstab;
 using namespace sphstab::analysis;
@@ -18,6 +18,8 @@ namespace {
 constexpr double eigenvalue_tolerance = 1e-12;
 /// Relative residual of the equilibrium; the displacement has it times the condition, some thousands.
 constexpr double static_tolerance = 1e-8;
+/// Its relative residual alone, in loads of 1 per mass.
+constexpr double residual_of_balance = 1e-10;
 
 struct Counts {
   int vibrations = 0, rigid = 0, zero_energy = 0;
@@ -82,6 +84,34 @@ TEST_CASE("a free plate moves rigidly in three ways, a block in six, a clamped o
   const auto block = bodies::block<3>(space, {8, 6, 6}, 0.1);
   CHECK(rigid_motions(block).cols() == 6);
   CHECK(count(lowest_modes(space, block, 9)).rigid == 6);
+}
+
+TEST_CASE("with renormalised gradients rotations are as free as translations, and a couple drives what nothing holds",
+          "[fast]") {
+  const auto plane = bodies::finite_strain_problem<2>(bodies::finite_strain_schemes[0]);
+  auto plate = bodies::block<2>(plane, {24, 20}, 0.1);
+  check_against_dense<2>(plane, plate, 8);
+  const double largest = BodyOperator<2>(plane, plate).norm_bound();
+  const auto modes = lowest_modes(plane, plate, 8);
+  CHECK(count({modes.begin(), modes.begin() + 3}).rigid == 3);
+  for (int i = 0; i < 3; ++i) CHECK(modes[i].omega * modes[i].omega < eigenvalue_tolerance * largest);
+
+  plate.load.assign(plate.position.size(), Vector<2>::Zero());
+  plate.load[0] = {0.0, -1.0};
+  plate.load[23] = {0.0, 1.0};
+  CHECK_THROWS_WITH(static_displacement(plane, plate), "load: its couple turns a part of the body that nothing holds");
+
+  const Vector<2> along = (plate.position[23] - plate.position[0]).normalized();
+  plate.load[0] = -along;
+  plate.load[23] = along;
+  const Eigen::VectorXd s = static_displacement(plane, plate);
+  BodyOperator<2> op(plane, plate);
+  Eigen::VectorXd x = s.cwiseQuotient(op.root_inverse_mass()), force(op.components());
+  op.apply(x, force);
+  force = op.displacement(force);  // M⁻¹ S s, the load
+  CHECK((force.segment<2>(0) + along).norm() < residual_of_balance);
+  CHECK((force.segment<2>(46) - along).norm() < residual_of_balance);
+  CHECK(force.norm() == Approx(std::sqrt(2.0)).epsilon(residual_of_balance));
 }
 
 TEST_CASE("the vibrations of a free chain are those of a bar, between the zero-energy modes", "[fast]") {

@@ -7,8 +7,8 @@
 #include "analysis/body_operator.hpp"
 #include "analysis/factorisation_bound.hpp"
 #include "analysis/lanczos.hpp"
-#include "tests/analysis/bodies.hpp"
 #include "tests/analysis/golden.hpp"
+#include "tests/analysis/plain_finite_strain.hpp"
 #include "tests/analysis/problems.hpp"
 
 using namespace sphstab;
@@ -57,12 +57,14 @@ void check_every_bound(const Problem<Dim>& problem, const Body<Dim>& body) {
 
 template <int Dim>
 void check_bodies(const LatticeIndex<Dim>& counts) {
-  for (const auto normalisation : {KernelNormalisation::none, KernelNormalisation::sum}) {
-    const auto problem = bodies::problem<Dim>(KernelFamily::cubic_spline, 1.3, normalisation);
+  const auto check = [&](const Problem<Dim>& problem) {
     check_every_bound<Dim>(problem, bodies::block(problem, counts));
     check_every_bound<Dim>(problem, bodies::block(problem, counts, 0.2));
     check_every_bound<Dim>(problem, bodies::mixed_block(problem, counts, 0.2));
-  }
+  };
+  for (const auto normalisation : {KernelNormalisation::none, KernelNormalisation::sum})
+    check(bodies::problem<Dim>(KernelFamily::cubic_spline, 1.3, normalisation));
+  check(bodies::finite_strain_problem<Dim>(bodies::finite_strain_schemes[0]));
 }
 
 }  // namespace
@@ -78,6 +80,22 @@ TEST_CASE("plate limits agree with the reference, with and without normalisation
     CHECK(std::abs(limit.critical_time_step - expected) < tolerance * expected);
     CHECK(limit.omega_max == Approx(2.0 / limit.critical_time_step).epsilon(1e-14));
   }
+}
+
+TEST_CASE("limits of free patches of finite strain agree with the reference", "[fast]") {
+  const auto references = golden::cases("spectrum", "tl_finite_strain_bodies");
+  REQUIRE(references.size() == 3);
+  for (const auto& reference : references)
+    for (const auto formulation : {Formulation::total_lagrangian_corotated, Formulation::total_lagrangian_pk1}) {
+      INFO(reference["id"] << ", " << name_of(formulation));  // without stress both have the same spectrum
+      auto problem = golden::problem(reference);
+      problem.scheme.formulation = formulation;
+      problem.material =
+          Material::from_bulk_modulus(reference["density"], reference["bulk_modulus"], reference["shear_modulus"]);
+      const auto limit = body_limit(problem, free_plate(problem, golden::numbers<LatticeIndex<2>>(reference["plate"])));
+      const double expected = reference["expect"]["critical_time_step"], tolerance = reference["tolerance"];
+      CHECK(golden::difference(limit.critical_time_step, expected) < tolerance);
+    }
 }
 
 TEST_CASE("every bound holds the largest dense eigenvalue: chains, plates, blocks, two materials, clamps", "[fast]") {
@@ -200,6 +218,25 @@ TEST_CASE("normalised free edges need a smaller step than the bulk", "[fast]") {
     problem.scheme.kernel_normalisation = KernelNormalisation::sum;
     CHECK(std::abs(ratio_to_bulk() - ratio) < printed);
   }
+}
+
+TEST_CASE("renormalised free edges need 0.6 of the step of the bulk, whatever the size of the plate", "[fast]") {
+  // theory.md §5, errata.md T8, to the digits that are given there.
+  struct Edge {
+    KernelFamily kernel;
+    double h, ratio, digits;
+  };
+  for (const auto& [kernel, h, ratio, digits] :
+       {Edge{KernelFamily::sinc_5, 1.2, 0.63, 5e-3}, Edge{KernelFamily::cubic_spline, 1.3, 0.585, 5e-4},
+        Edge{KernelFamily::wendland_c2, 1.6, 0.586, 5e-4}})
+    for (const int side : {12, 20, 40}) {
+      INFO(name_of(kernel) << ", " << side);
+      auto problem = problem_2d(LatticeKind::square, kernel, h);
+      problem.scheme.formulation = Formulation::total_lagrangian_corotated;
+      const double bulk = std::get<ConditionallyStable<2>>(bulk_limit(problem)).critical_time_step;
+      CHECK(std::abs(body_limit(problem, free_plate(problem, {side, side})).critical_time_step / bulk - ratio) <
+            digits);
+    }
 }
 
 TEST_CASE("a periodic patch has the limit of its wave vectors", "[fast]") {
