@@ -85,7 +85,7 @@ Tensor<Dim, Scalar> FiniteStrainSimulation<Dim, Scalar>::perturbation_gradient(c
 template <int Dim, class Scalar>
 template <StressMeasure measure>
 void FiniteStrainSimulation<Dim, Scalar>::store_stresses(const Field<Dim, Scalar>& displacement) {
-  for (int a = 0; a < particles(); ++a) {
+  for (int a = 0; a < this->particles(); ++a) {
     const Tensor<Dim, Scalar> F = base_gradient_ + perturbation_gradient(displacement, a);
     corrected_stress_[a] = first_piola_stress<measure>(F, substance(a).lame) * correction_[a];
   }
@@ -95,7 +95,7 @@ template <int Dim, class Scalar>
 void FiniteStrainSimulation<Dim, Scalar>::internal_accelerations(const Field<Dim, Scalar>& displacement,
                                                                  Field<Dim, Scalar>& acceleration) {
   with_measure(measure_, [&](auto measure) { store_stresses<measure>(displacement); });
-  for (int a = 0; a < particles(); ++a) {
+  for (int a = 0; a < this->particles(); ++a) {
     Vector<Dim, Scalar> sum = Vector<Dim, Scalar>::Zero();
     for (int pair = first_[a]; pair < first_[a + 1]; ++pair)
       sum += momentum_term(corrected_stress_[a], corrected_stress_[neighbour_[pair]], g_[pair]);
@@ -128,7 +128,7 @@ Scalar FiniteStrainSimulation<Dim, Scalar>::von_mises_stress(const State<Dim, Sc
 template <int Dim, class Scalar>
 Scalar FiniteStrainSimulation<Dim, Scalar>::strain_energy(const State<Dim, Scalar>& state) const {
   Scalar energy(0);
-  for (int a = 0; a < particles(); ++a) {
+  for (int a = 0; a < this->particles(); ++a) {
     const Tensor<Dim, Scalar> F = deformation_gradient(state, a);
     energy += static_cast<Real<Scalar>>(volume_[a]) *
               with_measure(measure_, [&](auto measure) { return energy_density<measure>(F, substance(a).lame); });
@@ -139,7 +139,7 @@ Scalar FiniteStrainSimulation<Dim, Scalar>::strain_energy(const State<Dim, Scala
 template <int Dim, class Scalar>
 Scalar FiniteStrainSimulation<Dim, Scalar>::perturbation_energy(const State<Dim, Scalar>& state) const {
   Scalar twice_energy(0);
-  for (int a = 0; a < particles(); ++a) {
+  for (int a = 0; a < this->particles(); ++a) {
     const Tensor<Dim, Scalar> e =
         symmetric_part<Scalar, Dim>(base_gradient_.transpose() * perturbation_gradient(state.displacement, a));
     twice_energy +=

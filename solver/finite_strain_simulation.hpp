@@ -55,7 +55,7 @@ class FiniteStrainSimulation final : public TotalLagrangian<Dim, Scalar> {
 
  private:
   using Base = TotalLagrangian<Dim, Scalar>;
-  using Base::first_, Base::g_, Base::neighbour_, Base::particles, Base::substance;
+  using Base::first_, Base::g_, Base::neighbour_, Base::substance;
 
   Tensor<Dim, Scalar> perturbation_gradient(const Field<Dim, Scalar>& displacement, int a) const;
   Tensor<3, Scalar> stress_in_space(const State<Dim, Scalar>& state, int a) const;

@@ -56,7 +56,7 @@ Tensor<Dim, Scalar> Simulation<Dim, Scalar>::perturbation_strain(const Field<Dim
 template <int Dim, class Scalar>
 template <MomentumDensity density>
 void Simulation<Dim, Scalar>::store_stresses(const Field<Dim, Scalar>& displacement) {
-  for (int a = 0; a < particles(); ++a) {
+  for (int a = 0; a < this->particles(); ++a) {
     const LameConstants& lame = substance(a).lame;
     const Tensor<Dim, Scalar> strain = base_strain_[a] + perturbation_strain(displacement, a);
     P_[a] = linear_elastic_stress(strain, lame);
@@ -78,7 +78,7 @@ void Simulation<Dim, Scalar>::internal_accelerations(const Field<Dim, Scalar>& d
       store_stresses<MomentumDensity::equation_of_state>(displacement);
       break;
   }
-  for (int a = 0; a < particles(); ++a) {
+  for (int a = 0; a < this->particles(); ++a) {
     Vector<Dim, Scalar> sum = Vector<Dim, Scalar>::Zero();
     for (int pair = first_[a]; pair < first_[a + 1]; ++pair)
       sum += momentum_term(P_[a], P_[neighbour_[pair]], g_[pair]);
@@ -104,7 +104,7 @@ Scalar Simulation<Dim, Scalar>::von_mises_stress(const State<Dim, Scalar>& state
 template <int Dim, class Scalar>
 Scalar Simulation<Dim, Scalar>::strain_energy(const State<Dim, Scalar>& state) const {
   Scalar twice_energy(0);
-  for (int a = 0; a < particles(); ++a) {
+  for (int a = 0; a < this->particles(); ++a) {
     const Tensor<Dim, Scalar> strain = perturbation_strain(state.displacement, a);
     const Tensor<Dim, Scalar> stress = linear_elastic_stress(strain, substance(a).lame);
     twice_energy += static_cast<Real<Scalar>>(weight_[a]) * stress.cwiseProduct(strain).sum();

@@ -47,7 +47,7 @@ class Simulation final : public TotalLagrangian<Dim, Scalar> {
 
  private:
   using Base = TotalLagrangian<Dim, Scalar>;
-  using Base::first_, Base::g_, Base::neighbour_, Base::particles, Base::substance;
+  using Base::first_, Base::g_, Base::neighbour_, Base::substance;
 
   Tensor<Dim, Scalar> perturbation_strain(const Field<Dim, Scalar>& displacement, int a) const;
   template <MomentumDensity density>
