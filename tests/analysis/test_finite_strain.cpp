@@ -504,6 +504,33 @@ TEST_CASE("a finite strain state grows if and only if ellipticity is lost", "[fa
   }
 }
 
+TEST_CASE("growth in a cone of directions narrower than the grid is found whole", "[fast]") {
+  auto problem = finite_strain_problem<2>(Formulation::total_lagrangian_corotated,
+                                          Lattice<2>(LatticeKind::hexagonal, 1.0), KernelFamily::cubic_spline, 2.0);
+  const double threshold = loss_of_ellipticity(problem.scheme.formulation, problem.material.poisson_ratio());
+  problem.deformation_gradient = Vector<2>(threshold - 1e-8, 1.0).asDiagonal();
+  // Wide kernels have |D~| near its maximum in every direction, the weakest one too.
+  const double bound = std::sqrt(-weakest_direction(problem).squared_speed) * BulkModes<2>(problem).symbol_maximum();
+  CHECK(growth_range(problem).growth_rate > 0.999 * bound);
+}
+
+TEST_CASE("a scan covers what the strain of the base state does not repeat", "[fast]") {
+  const auto points = [](const Tensor<2>& F) {
+    return static_cast<double>(
+        ZoneScan<2>(finite_strain_problem<2>(Formulation::total_lagrangian_pk1, Lattice<2>(LatticeKind::square, 1.0),
+                                             KernelFamily::cubic_spline, 2.0, F))
+            .points()
+            .size());
+  };
+  // Of the 8 symmetries of the square 4 keep a stretch along x and 2 a shear; boxes on the edges belong to both sides.
+  constexpr double edges = 0.2;
+  const double unstrained = points(Tensor<2>::Identity());
+  CHECK(points(rotation(0.4)) == unstrained);
+  CHECK(points(Vector<2>(1.3, 1.0).asDiagonal()) / unstrained == Approx(2.0).epsilon(edges));
+  CHECK(points(rotation(0.4) * Vector<2>(1.3, 1.0).asDiagonal()) / unstrained == Approx(2.0).epsilon(edges));
+  CHECK(points(sheared<2>()) / unstrained == Approx(4.0).epsilon(edges));
+}
+
 TEST_CASE("tension of any size makes no finite strain state grow", "[fast]") {
   for (const auto formulation : formulations)
     for (const double stretch : {1.2, 2.0, 4.0}) {
