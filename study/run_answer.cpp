@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -181,6 +182,19 @@ Json to_json(const NonFiniteValue& failure) {
   return values;
 }
 
+/// Of `ul`: a step above the limit of the state at the start, or a state in which a particle is pulled.
+template <int Dim>
+std::optional<GrowthCause> cause_in_updated_lagrangian(const StepTheory& theory, double time_step,
+                                                       const Snapshot<Dim>& last) {
+  const bool grows_at_start =
+      theory.growth_per_step && theory.growth_per_step(0.5 * time_step) > analysis::negligible_growth_per_step;
+  if (theory.critical_time_step && time_step > *theory.critical_time_step && !grows_at_start)
+    return GrowthCause::time_step;
+  for (const auto& stress : last.stress)
+    if (stress.template selfadjointView<Eigen::Lower>().eigenvalues()[Dim - 1] > 0.0) return GrowthCause::tension;
+  return std::nullopt;
+}
+
 Json to_json(const RunGrowth& growth) {
   return {{"step", growth.step},
           {"time", growth.time},
@@ -299,12 +313,16 @@ Json run_answer(const Case& input, const Request& request) {
                                       {"velocity", components<Dim>(probe.velocity.back())},
                                       {"stress", rows<Dim>(probe.stress.back())}};
   if (result.failure) answer["failure"] = to_json(*result.failure);
-  if (result.growth) answer["growth"] = to_json(*result.growth);
   const bool linear = scheme.formulation == Formulation::total_lagrangian_linear;
   const bool can_grow = !linear || !theory.critical_time_step || time_step > *theory.critical_time_step;
   answer["unstable"] = result.failure || result.growth ||
                        has_grown(result.summary, can_grow, energy_of_rounding(scene)) ||
                        !result.summary.lost_particles.empty();
+  if (result.growth)
+    answer["growth"] = to_json(*result.growth);
+  else if (answer["unstable"].get<bool>() && !is_total_lagrangian(scheme.formulation))
+    answer["growth"] = to_json(RunGrowth{result.summary.steps, result.summary.time,
+                                         cause_in_updated_lagrangian(theory, time_step, result.last)});
   files.finish(result, answer);
   return answer;
 }

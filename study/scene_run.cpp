@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "analysis/ellipticity.hpp"
@@ -81,19 +83,27 @@ class LagrangianMotion {
     for (int a = 0; a < particles(); ++a) state_.velocity[a] += time * acceleration[a];
   }
 
-  /// Why a run of finite strain has grown since it was in this state.
-  std::optional<GrowthCause> cause_of_growth(const State& calm, double time_step) const {
-    const auto limit = critical_step_about(scene_.problem, scene_.body, calm.displacement);
-    if (limit && time_step > *limit) return GrowthCause::time_step;
-    const auto& simulation = dynamic_cast<const solver::FiniteStrainSimulation<Dim>&>(*simulation_);
+  /// Whether a step is above the critical one of a state.
+  bool is_above_limit(double time_step, const State& state) const {
+    const auto limit = critical_step_about(scene_.problem, scene_.body, state.displacement);
+    return limit && time_step > *limit;
+  }
+
+  /// Of finite strain: whether the most compressed particle is turned inside out or has no waves in some direction.
+  bool has_lost_ellipticity() const {
+    const auto* simulation = dynamic_cast<const solver::FiniteStrainSimulation<Dim>*>(simulation_.get());
+    if (simulation == nullptr) return false;
     Problem<Dim> strained = scene_.problem;
+    double smallest = std::numeric_limits<double>::infinity();
     for (int a = 0; a < particles(); ++a) {
-      strained.deformation_gradient = simulation.deformation_gradient(state_, a);
-      if (!(strained.deformation_gradient.determinant() > 0.0) ||
-          analysis::weakest_direction(strained).squared_speed < 0.0)
-        return GrowthCause::loss_of_ellipticity;
+      const Tensor<Dim> F = simulation->deformation_gradient(state_, a);
+      if (!(F.determinant() > 0.0)) return true;
+      const double square = Tensor<Dim>(F.transpose() * F).template selfadjointView<Eigen::Lower>().eigenvalues()[0];
+      if (square >= smallest) continue;
+      smallest = square;
+      strained.deformation_gradient = F;
     }
-    return std::nullopt;
+    return analysis::weakest_direction(strained).squared_speed < 0.0;
   }
 
   const Vector<Dim>& displacement(int a) const { return state_.displacement[a]; }
@@ -156,7 +166,8 @@ class UpdatedMotion {
 
   /// The step of `ul` is not followed, and its growth judged at the end.
   void kick(double) {}
-  std::optional<GrowthCause> cause_of_growth(const State&, double) const { return std::nullopt; }
+  bool is_above_limit(double, const State&) const { return false; }
+  bool has_lost_ellipticity() const { return false; }
 
   Vector<Dim> displacement(int a) const { return state_.position[a] - start_[a]; }
   const Vector<Dim>& velocity(int a) const { return state_.velocity[a]; }
@@ -341,11 +352,16 @@ class Run {
   void watch_growth() {
     largest_work_ = std::max(largest_work_, std::abs(work()));
     const double given = initial_energy_ + largest_work_ + energy_of_rounding(scene_);
-    if (kinetic_energy() + motion_.strain_energy() <= energy_of_growth * given) {
+    const bool lost = motion_.has_lost_ellipticity();
+    if (!lost && kinetic_energy() + motion_.strain_energy() <= energy_of_growth * given) {
       calm_ = motion_.state();
       return;
     }
-    growth_ = {step_, time(), motion_.cause_of_growth(calm_, time_step_)};
+    growth_ = {step_, time(), std::nullopt};
+    if (motion_.is_above_limit(time_step_, calm_))
+      growth_->cause = GrowthCause::time_step;
+    else if (lost)
+      growth_->cause = GrowthCause::loss_of_ellipticity;
   }
 
   double work() const {

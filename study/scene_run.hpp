@@ -72,14 +72,15 @@ struct NonFiniteValue {
   std::optional<std::string_view> term = {};  ///< of `ul`, that first made no number: a solver::UpdatedTerm
 };
 
-/// Why a run of finite strain or `ul` grows.
+/// Why a run grows.
 enum class GrowthCause {
   time_step,           ///< it is above the critical step of the state
   tension,             ///< of `ul`: the particles are pulled apart
   loss_of_ellipticity  ///< the law has no waves in some direction of some particle's strain
 };
 
-/// A run that has more energy than the start and the loads have given it.
+/// A run of finite strain that has more energy than its start and loads have given it, or a particle that has lost
+/// ellipticity: whatever the energy, waves grow there.
 struct RunGrowth {
   long step;
   double time;

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Scenes of tl-corotated and tl-pk1: fixed and followed steps, growth that is recognised, rest, beams.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "study/beams.hpp"
+#include "study/elastica.hpp"
+#include "study/scene_run.hpp"
+
+using namespace sphstab;
+using namespace sphstab::study;
+
+namespace {
+
+using namespace beams;
+
+constexpr double soft = 0.5e6, bar_spacing = 5e-3;
+
+Scene<2> bar(int method) { return make_scene(bar_scene({soft, bar_spacing}, methods()[method])); }
+
+}  // namespace
+
+TEST_CASE("a followed run of a swinging bar keeps its energy and its answer", "[fast]") {
+  const auto scene = bar(1);
+  const double limit = step_of(scene, 1.0);
+  constexpr double duration = 0.4;
+  const auto run = [&](std::optional<double> followed, double fraction) {
+    return run_scene<2>(scene, {.time_step = fraction * limit, .followed_fraction = followed, .duration = duration});
+  };
+  const auto followed = run(0.9, 0.9), bold = run(0.98, 0.98), fixed = run({}, 0.45);
+  REQUIRE(followed.summary.following);
+  const auto& following = *followed.summary.following;
+  CHECK(following.work.updates > 2);
+  CHECK(following.smallest_step < 0.999 * following.largest_step);
+  CHECK(following.largest_step < 0.901 * limit);
+  CHECK(followed.summary.time == Approx(duration).epsilon(1e-3));
+  CHECK(followed.summary.steps * 1.8 < fixed.summary.steps);
+  for (const auto* result : {&followed, &bold, &fixed}) {
+    CHECK_FALSE(result->growth);
+    CHECK_FALSE(result->failure);
+    const auto& summary = result->summary;
+    // Leapfrog: the energy errs by (ωΔt)² of what swings slowly, and by all of what waves carry from corner to corner.
+    CHECK(summary.kinetic_energy + summary.strain_energy == Approx(summary.work).epsilon(2e-3));
+    const auto& u = result->last.displacement.back();
+    CHECK((u - fixed.last.displacement.back()).norm() < 5e-3 * fixed.last.displacement.back().norm());
+  }
+}
+
+TEST_CASE("a run above its limit is stopped, and the step is named", "[fast]") {
+  for (const int method : {0, 1}) {
+    const auto scene = bar(method);
+    const auto result = run_scene<2>(scene, {.time_step = step_of(scene, 1.05), .duration = 2.0, .snapshots = 3});
+    REQUIRE(result.growth);
+    CHECK(result.growth->cause == GrowthCause::time_step);
+    CHECK(result.summary.time < 0.5);
+    for (const auto& u : result.last.displacement) CHECK(u.allFinite());
+  }
+}
+
+TEST_CASE("a compressed patch without waves is stopped, and the loss of ellipticity is named", "[fast]") {
+  // Uniaxial strain: lost below 0.469 (tl-corotated) and 0.706 (tl-pk1) at ν = 0.3, theory.md §5.
+  const auto cause_at = [](int method, double stretch) {
+    SceneDescription<2> description = bar_scene({soft, bar_spacing}, methods()[method]);
+    description.parts.clear();
+    description.clamps.clear();
+    description.gravity.setZero();
+    description.periodic_cells = LatticeIndex<2>(6, 6);
+    description.problem.material = Material::from_young_modulus(1.0, 1.0, 0.3);
+    description.materials = {description.problem.material};
+    description.problem.deformation_gradient = Tensor<2>{{stretch, 0.0}, {0.0, 1.0}};
+    const auto scene = make_scene(description);
+    const auto result = run_scene<2>(scene, {.time_step = 0.3 * bar_spacing, .duration = 600.0 * bar_spacing});
+    return result.growth ? result.growth->cause : std::nullopt;
+  };
+  CHECK(cause_at(0, 0.46) == GrowthCause::loss_of_ellipticity);
+  CHECK_FALSE(cause_at(0, 0.48));
+  CHECK(cause_at(1, 0.70) == GrowthCause::loss_of_ellipticity);
+  CHECK_FALSE(cause_at(1, 0.72));
+}
+
+TEST_CASE("a followed step is for bodies of finite strain", "[fast]") {
+  const auto scene = make_scene(beam_scene(cantilever(1.0, 5e-3), methods()[2]));
+  CHECK_THROWS_WITH(run_scene<2>(scene, {.time_step = 1e-5, .followed_fraction = 0.9, .duration = 1e-4}),
+                    "time_step: auto follows the limit of tl-corotated and tl-pk1, which changes, not of ul");
+}
+
+TEST_CASE("a pulled strip is as long as its law says, a bent one drops like a strip with shear", "[fast]") {
+  for (const int method : {0, 1}) {
+    const double spacing = 5e-3;
+    const Beam pulled = truss(7000.0, spacing), bent = cantilever(75.0, spacing);
+    const auto rest = [&](const Beam& beam) {
+      const auto scene = make_scene(beam_scene(beam, methods()[method]));
+      const Rest found = rest_of(scene, 1e-6);
+      REQUIRE(found.converged);
+      return reading_at(scene, {beam.length, 0.5 * beam.height})(found.displacement);
+    };
+    // R·S: (l² − 1)/2 = F/(AE); F·S: l (l² − 1)/2. Of the ends, where the load is half a spacing inside and clamps
+    // give way by about as much, a part of Δx/L is left.
+    const double stress = 7000.0 / (0.05 * 2e6), corotated = std::sqrt(1.0 + 2.0 * stress) - 1.0;
+    double pk1 = stress;
+    for (int i = 0; i < 30; ++i) pk1 = 2.0 * stress / ((1.0 + pk1) * (2.0 + pk1));
+    CHECK(rest(pulled)[0] / pulled.length == Approx(method == 0 ? corotated : pk1).epsilon(spacing / pulled.length));
+    const double drop = shearable_elastica({bent.length, bent.height, bent.young_modulus}, bent.force_y).drop;
+    // Four spacings across; clamp and end are of first order too, and three times as much in a drop.
+    CHECK(-rest(bent)[1] / bent.length == Approx(drop).epsilon(6.0 * spacing / bent.length));
+  }
+}
+
+TEST_CASE("the displacement of a point is exact where it is affine", "[fast]") {
+  const auto scene = bar(1);
+  const auto reading = reading_at(scene, bar_end);
+  const Tensor<2> gradient{{0.3, -0.2}, {0.7, 0.1}};
+  std::vector<Vector<2>> displacement;
+  for (const auto& x : scene.body.position) displacement.push_back(gradient * x + Vector<2>(1.0, -2.0));
+  CHECK((reading(displacement) - (gradient * bar_end + Vector<2>(1.0, -2.0))).norm() < 1e-13);
+  CHECK_THROWS_WITH(reading_at(scene, {3.0, 3.0}), "position: fewer than three particles are near it");
+}
