@@ -25,7 +25,7 @@ std::string describe_limit(const Json& answer) {
   if (verdict == "never-stable")
     return row("verdict", "never stable: the base state grows at every time step") +
            row("growth rate", fmt::format("{:.8g} per time", answer["growth_rate"].get<double>())) +
-           row("fastest mode", wave);
+           row("fastest mode", wave) + ellipticity_row(answer);
   if (verdict == "weakly-unstable")
     return row("verdict", "weakly unstable: nothing grows in continuous time, yet every time step makes it grow") +
            row("growth per step", describe_law(answer["growth_law"])) +
@@ -35,7 +35,8 @@ std::string describe_limit(const Json& answer) {
              fmt::format("{:.17g} and {:.17g}", answer["bracket"][0].get<double>(),
                          answer["bracket"][1].get<double>())) +
          row("verdict", "conditionally stable") +
-         row("critical mode", fmt::format("{}, omega = {:.8g}", wave, mode["omega"].get<double>()));
+         row("critical mode", fmt::format("{}, omega = {:.8g}", wave, mode["omega"].get<double>())) +
+         ellipticity_row(answer);
 }
 
 std::string describe_bound(const Json& bound) {

@@ -25,6 +25,17 @@ std::string complex_number(std::complex<double> value, int digits) {
 
 std::complex<double> complex_of(const study::Json& pair) { return {pair[0].get<double>(), pair[1].get<double>()}; }
 
+std::string ellipticity_row(const study::Json& answer) {
+  if (!answer.contains("ellipticity")) return "";
+  const study::Json& ellipticity = answer["ellipticity"];
+  const std::string weakest =
+      fmt::format("the slowest wave is along ({}), c^2 = {:.6g}", numbers(ellipticity["weakest_direction"], 4),
+                  ellipticity["squared_speed"].get<double>());
+  return row("ellipticity", ellipticity["lost"].get<bool>()
+                                ? "LOST, a property of the law and not of the particles: " + weakest
+                                : "kept: " + weakest);
+}
+
 std::string subject(const study::Json& answer) {
   if (answer.contains("scene")) return "the scene " + answer["scene"].get<std::string>();
   const bool plate = answer.contains("plate");

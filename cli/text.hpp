@@ -24,6 +24,9 @@ std::string complex_number(std::complex<double> value, int digits);
 /// The number of a pair [re, im].
 std::complex<double> complex_of(const study::Json& pair);
 
+/// The line on ellipticity of an answer about finite strain; nothing for others.
+std::string ellipticity_row(const study::Json& answer);
+
 /// The body that an answer is of, in words.
 std::string subject(const study::Json& answer);
 

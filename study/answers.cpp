@@ -12,6 +12,7 @@
 #include "analysis/updated_modes.hpp"
 #include "io/scene_input.hpp"
 #include "study/counts.hpp"
+#include "study/ellipticity_answer.hpp"
 #include "study/foreign_solver.hpp"
 #include "study/json_values.hpp"
 #include "study/p_wave_speed.hpp"
@@ -104,12 +105,13 @@ Json time_step_answer(const Case& input, const Problem<Dim>& problem, const Mode
   return answer;
 }
 
-/// What `tl-linear` has besides: the symbol D, and a published bound.
+/// What total-Lagrangian schemes have besides: the symbol D, `tl-linear` a published bound, finite strain ellipticity.
 template <int Dim>
-Json linear_time_step_answer(const Case& input, const Problem<Dim>& problem) {
+Json lagrangian_time_step_answer(const Case& input, const Problem<Dim>& problem) {
   const analysis::BulkModes<Dim> modes(problem);
   Json answer = time_step_answer(input, problem, modes);
   answer["symbol_maximum"] = modes.symbol_maximum();
+  if (is_finite_strain(problem.scheme.formulation)) answer["ellipticity"] = ellipticity_answer(problem);
   if (const auto bound = analysis::published_bound(problem)) {
     const Json& step = answer["critical_time_step"];
     answer["published_bound"] = {{"source", "Zhang, Hu, Cui & Wang, Eq. 15"},
@@ -131,7 +133,7 @@ template <int Dim>
 Json time_step_answer(const Case& input, const Request& request) {
   const auto problem = make_problem<Dim>(input);
   const bool updated = problem.scheme.formulation == Formulation::updated_lagrangian;
-  Json answer = updated ? updated_time_step_answer(input, problem) : linear_time_step_answer(input, problem);
+  Json answer = updated ? updated_time_step_answer(input, problem) : lagrangian_time_step_answer(input, problem);
   if (request.wants("zero_energy_modes") || request.wants("zero_energy_modes_complete")) {
     const auto zeros = analysis::zero_energy_modes(problem);
     answer["zero_energy_modes"] = Json::array();

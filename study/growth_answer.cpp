@@ -11,6 +11,7 @@
 #include "analysis/lattice_sums.hpp"
 #include "analysis/updated_lagrangian.hpp"
 #include "model/brillouin_zone.hpp"
+#include "study/ellipticity_answer.hpp"
 #include "study/json_values.hpp"
 #include "study/title.hpp"
 
@@ -75,6 +76,7 @@ template <int Dim>
 Json growth_answer(const Case& input, const Request& request) {
   const auto problem = make_problem<Dim>(input);
   Json answer = range_of(problem);
+  if (is_finite_strain(problem.scheme.formulation)) answer["ellipticity"] = ellipticity_answer(problem);
   if (problem.scheme.formulation != Formulation::updated_lagrangian) return answer;
   const auto& artificial = problem.scheme.artificial_stress;
   answer["artificial_stress_epsilon"] = artificial ? artificial->epsilon : 0.0;
