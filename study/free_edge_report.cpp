@@ -28,8 +28,8 @@ constexpr std::array plates{6, 10, 20};
 constexpr int run_plate = 10;
 /// Of the critical step of a run.
 constexpr double tolerance = 1e-6;
-/// Errata T8.
-constexpr double largest_factor = 0.65, smallest_factor = 0.5;
+/// About 0.6, errata T8.
+constexpr double largest_factor = 0.7, smallest_factor = 0.5;
 /// Between the two largest plates.
 constexpr double size_independent = 5e-3;
 

