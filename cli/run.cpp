@@ -19,28 +19,32 @@ std::string time_step_row(const Json& answer) {
                                       number(answer, "critical_time_step")));
 }
 
-/// Whether the run went wrong, and how.
-std::string unstable_row(const Json& answer) {
+/// What a run that went wrong lost or gained.
+std::string loss(const Json& answer) {
   if (answer.contains("failure")) {
     const Json& failure = answer["failure"];
     const auto field = failure["field"].get<std::string>();
     const std::string lost =
         fmt::format("the {} of particle {} is no {}number at step {}", field, failure["particle"].get<int>(),
                     field == "density" ? "positive " : "", failure["step"].get<long>());
-    return row("UNSTABLE", failure.contains("term") ? fmt::format("{}; the first term to break: {}", lost,
-                                                                  failure["term"].get<std::string>())
-                                                    : lost);
-  }
-  if (answer.contains("growth")) {
-    const Json& growth = answer["growth"];
-    return row("UNSTABLE", fmt::format("more energy than the start and the loads gave, at step {}; cause: {}",
-                                       growth["step"].get<long>(), growth["cause"].get<std::string>()));
+    return failure.contains("term")
+               ? fmt::format("{}; the first term to break: {}", lost, failure["term"].get<std::string>())
+               : lost;
   }
   if (const long lost = answer["lost_particles"].get<long>(); lost > 0)
-    return row("UNSTABLE", fmt::format("particles that have lost all their neighbours: {}", lost));
-  if (answer["unstable"].get<bool>())
-    return row("UNSTABLE", "the energy is more than a thousand times what the start and the loads gave");
-  return "";
+    return fmt::format("particles that have lost all their neighbours: {}", lost);
+  if (answer.contains("growth") && answer["growth"].contains("step"))
+    return fmt::format("waves grow, or there is more energy than the start and the loads gave, at step {}",
+                       answer["growth"]["step"].get<long>());
+  return "the energy is more than a thousand times what the start and the loads gave";
+}
+
+/// Whether the run went wrong, how, and why.
+std::string unstable_row(const Json& answer) {
+  if (!answer["unstable"].get<bool>()) return "";
+  const bool has_cause = answer.contains("growth") && answer["growth"]["cause"] != "unknown";
+  return row("UNSTABLE", loss(answer)) +
+         (has_cause ? row("cause", answer["growth"]["cause"].get<std::string>()) : std::string());
 }
 
 std::string describe(const Json& answer) {

@@ -195,11 +195,7 @@ std::optional<GrowthCause> cause_in_updated_lagrangian(const StepTheory& theory,
   return std::nullopt;
 }
 
-Json to_json(const RunGrowth& growth) {
-  return {{"step", growth.step},
-          {"time", growth.time},
-          {"cause", growth.cause ? Json(name_of(*growth.cause)) : Json("unknown")}};
-}
+Json to_json(const std::optional<GrowthCause>& cause) { return cause ? name_of(*cause) : "unknown"; }
 
 /// Writes what a run shows into the folder of a request; does nothing without one.
 template <int Dim>
@@ -318,11 +314,10 @@ Json run_answer(const Case& input, const Request& request) {
   answer["unstable"] = result.failure || result.growth ||
                        has_grown(result.summary, can_grow, energy_of_rounding(scene)) ||
                        !result.summary.lost_particles.empty();
-  if (result.growth)
-    answer["growth"] = to_json(*result.growth);
+  if (const auto& growth = result.growth)
+    answer["growth"] = {{"step", growth->step}, {"time", growth->time}, {"cause", to_json(growth->cause)}};
   else if (answer["unstable"].get<bool>() && !is_total_lagrangian(scheme.formulation))
-    answer["growth"] = to_json(RunGrowth{result.summary.steps, result.summary.time,
-                                         cause_in_updated_lagrangian(theory, time_step, result.last)});
+    answer["growth"] = {{"cause", to_json(cause_in_updated_lagrangian(theory, time_step, result.last))}};
   files.finish(result, answer);
   return answer;
 }

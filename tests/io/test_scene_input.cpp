@@ -308,7 +308,10 @@ TEST_CASE("every scene that is shipped can be read", "[fast]") {
                                                {"gray-thin-plate", 2360},
                                                {"gray-array", 400},
                                                {"tension-patch", 400},
-                                               {"transverse-patch", 400}};
+                                               {"transverse-patch", 400},
+                                               {"cantilever", 1030},
+                                               {"truss", 2575},
+                                               {"turek-hron", 460}};
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(SPHSTAB_SCENES_FOLDER)) {
     ++files;
