@@ -274,7 +274,7 @@ class Run {
     if (!follower_) return options_.time_step;
     if (!follower_->critical_step())
       throw InvalidInput("time_step: auto needs a body in which some mode has a restoring force");
-    return *options_.followed_fraction * *follower_->critical_step() / (1.0 + 3.0 * wave_of_loads_ / wave_speed_);
+    return followed_step(wave_of_loads_);
   }
 
   static double slowest_wave(const Scene<Dim>& scene) {
@@ -293,10 +293,11 @@ class Run {
   double time() const { return time_of_change_ + static_cast<double>(step_ - step_of_change_) * time_step_; }
 
   long steps_of_snapshot(long index) const {
-    const double count = static_cast<double>(index) / static_cast<double>(snapshots_);
     if (step_of_change_ == 0)
       return std::lround(static_cast<double>(index) * static_cast<double>(steps_) / static_cast<double>(snapshots_));
-    return std::min(steps_, step_of_change_ + std::lround((count * options_.duration - time_of_change_) / time_step_));
+    const double time_left =
+        options_.duration * static_cast<double>(index) / static_cast<double>(snapshots_) - time_of_change_;
+    return std::min(steps_, step_of_change_ + std::lround(time_left / time_step_));
   }
 
   /// Another step from here on. Velocities of `leapfrog` are half a step behind, of whichever step.
@@ -317,22 +318,26 @@ class Run {
     for (int a = 0; a < motion_.particles(); ++a) displacement.push_back(motion_.displacement(a));
     follower_->update(displacement);
     step_of_update_ = step_ + follower_->interval();
-    const double time_step = followed_step();
+    const double time_step = followed_step(fastest());
     if (std::abs(time_step / time_step_ - 1.0) > smallest_change) change_step(time_step);
   }
 
   /// The part of the last limit, less what waves may take of it before the next: one with velocities v strains by v/c,
   /// twice where it is reflected, and that lowers the limit of the laws by three halves of it. A load f per mass that
   /// is put on at once sends a wave of f Δp/c.
-  double followed_step() const {
-    double fastest = wave_of_loads_;
-    for (int a = 0; a < motion_.particles(); ++a) fastest = std::max(fastest, motion_.velocity(a).norm());
+  double followed_step(double fastest) const {
     return *options_.followed_fraction * *follower_->critical_step() / (1.0 + 3.0 * fastest / wave_speed_);
+  }
+
+  double fastest() const {
+    double velocity = wave_of_loads_;
+    for (int a = 0; a < motion_.particles(); ++a) velocity = std::max(velocity, motion_.velocity(a).norm());
+    return velocity;
   }
 
   /// Between updates the step is only lowered.
   void heed_waves() {
-    if (const double time_step = followed_step(); time_step < time_step_ * (1.0 - smallest_change))
+    if (const double time_step = followed_step(fastest()); time_step < time_step_ * (1.0 - smallest_change))
       change_step(time_step);
   }
 
