@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Rung 6 of finite strain: critical steps of the running solver by bisection against theory.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "analysis/deformed_limit.hpp"
+#include "analysis/spectrum.hpp"
+#include "ladder/finite_strain_cases.hpp"
+#include "study/bodies.hpp"
+#include "study/growth_run.hpp"
+#include "study/relaxation.hpp"
+#include "study/step_comparison.hpp"
+
+using namespace sphstab;
+using study::PeriodicPatch;
+
+namespace {
+
+/// The bisection's own: both ends of its bracket were run, and it is this narrow.
+constexpr double bisection_tolerance = 1e-6;
+
+template <int Dim>
+void check_bisection(const Problem<Dim>& problem, const study::BodyChoice<Dim>& choice) {
+  const auto found = study::compare_step<Dim>(problem, choice, {.tolerance = bisection_tolerance});
+  REQUIRE(found.run.critical_time_step);
+  REQUIRE(found.theory.critical_time_step);
+  fprintf(stderr, "%s bisection %.2e runs %d steps %ld\n", ladder::describe(problem.scheme).c_str(),
+          *found.relative_difference(), found.run.runs, found.run.steps);
+  CHECK(found.run.high - found.run.low <= bisection_tolerance * found.run.high);
+  CHECK(*found.relative_difference() < bisection_tolerance);
+}
+
+/// Every scheme and base state with one lattice and one integrator each in turn; in space every other state.
+template <int Dim>
+std::vector<ladder::NamedProblem<Dim>> in_turn() {
+  std::vector<ladder::NamedProblem<Dim>> subjects;
+  const auto lattices = lattices_of(Dim);
+  std::size_t next = 0;
+  for (const auto& scheme : ladder::finite_strain_schemes)
+    for (const auto& [state, gradient] : ladder::base_states<Dim>()) {
+      const auto lattice = lattices[next % lattices.size()];
+      const auto& [integrator, integrator_name] = total_lagrangian_integrators[next++ % 2];
+      auto problem = ladder::finite_strain_problem<Dim>(scheme, lattice, KernelFamily::cubic_spline, 1.31);
+      problem.integrator = integrator;
+      problem.deformation_gradient = gradient;
+      subjects.push_back({ladder::describe(problem.scheme) + ", " + state + ", " + std::string(name_of(lattice)) +
+                              ", " + std::string(integrator_name),
+                          problem});
+    }
+  return subjects;
+}
+
+/// Bent under its weight until its end hangs by a third of its length.
+struct Cantilever {
+  explicit Cantilever(const ladder::FiniteStrainScheme& scheme) {
+    problem.scheme.formulation = scheme.formulation;
+    problem.scheme.elastic_law = scheme.law;
+    body = study::test::loaded(study::test::clamped_at_left(free_plate(problem, {12, 4})), {0.0, -0.01});
+    rest_step = analysis::body_limit(problem, body).critical_time_step;
+  }
+
+  Problem<2> problem = study::test::plain_problem();
+  Body<2> body;
+  double rest_step;
+};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("rung 6: bisection finds the theory's limit of uniform states of finite strain",
+                       "[ladder][theory-vs-bisection]", ((int Dim), Dim), 1, 2, 3) {
+  for (const auto& [name, problem] : in_turn<Dim>()) {
+    INFO(name);
+    check_bisection<Dim>(problem, PeriodicPatch<Dim>{ladder::running_patch<Dim>()});
+  }
+}
+
+TEST_CASE("rung 6: bisection on free plates finds what renormalised edges make of the limit of finite strain",
+          "[ladder][theory-vs-bisection]") {
+  struct Width {
+    KernelFamily kernel;
+    double h_over_spacing;
+  };
+  for (const auto& scheme : ladder::finite_strain_schemes)
+    for (const auto& [kernel, h_over_spacing] :
+         {Width{KernelFamily::sinc_5, 1.2}, Width{KernelFamily::cubic_spline, 1.3},
+          Width{KernelFamily::wendland_c2, 1.6}}) {
+      auto problem = ladder::finite_strain_problem<2>(scheme, LatticeKind::square, kernel, h_over_spacing);
+      INFO(ladder::describe(problem.scheme) << ", " << name_of(kernel));
+      if (kernel == KernelFamily::cubic_spline) problem.integrator = Integrator::verlet;
+      check_bisection<2>(problem, free_plate<2>(problem, {9, 8}));
+    }
+}
+
+TEST_CASE("rung 6: bisection finds the limit of free bars and blocks, clamped and jittered bodies of finite strain",
+          "[ladder][theory-vs-bisection]") {
+  for (const auto& scheme : ladder::finite_strain_schemes) {
+    const auto chain = ladder::finite_strain_problem<1>(scheme, LatticeKind::chain, KernelFamily::quintic_spline, 1.2);
+    INFO(ladder::describe(chain.scheme));
+    check_bisection<1>(chain, free_plate<1>(chain, LatticeIndex<1>(17)));
+    const auto cubic = ladder::finite_strain_problem<3>(scheme, LatticeKind::cubic, KernelFamily::wendland_c2, 1.2);
+    check_bisection<3>(cubic, free_plate<3>(cubic, {4, 3, 3}));
+    auto square = study::test::plain_problem();
+    square.scheme = chain.scheme;
+    const auto plate = free_plate<2>(square, {10, 5});
+    check_bisection<2>(square, study::test::jittered(study::test::clamped_at_left(plate), square, 3));
+    check_bisection<2>(square, study::test::of_two_materials(study::test::clamped_at_left(plate), 10));
+    square.scheme.damping = Damping{0.3};
+    check_bisection<2>(square, plate);
+  }
+}
+
+TEST_CASE("rung 6: a cantilever at rest under its load grows from the limit of its deformed state on",
+          "[ladder][theory-vs-bisection]") {
+  for (const auto& scheme : ladder::finite_strain_schemes) {
+    const Cantilever cantilever(scheme);
+    const auto& [problem, body, rest_step] = cantilever;
+    INFO(ladder::describe(problem.scheme));
+    const auto equilibrium = study::relax(problem, body, {.time_step = 0.6 * rest_step, .tolerance = 1e-12});
+    fprintf(stderr, "relaxed %d steps %ld residual %.2e error %.2e\n", (int)equilibrium.converged, equilibrium.steps,
+            equilibrium.residual, equilibrium.displacement_error);
+    REQUIRE(equilibrium.converged);
+    Eigen::VectorXd displacement(2 * body.size());
+    for (int a = 0; a < body.size(); ++a) displacement.segment<2>(2 * a) = equilibrium.displacement[a];
+    const double length = body.position.back()[0];
+    CHECK(displacement.lpNorm<Eigen::Infinity>() > 0.3 * length);
+    analysis::DeformedBodyOperator<2> op(problem, body);
+    op.set_state(displacement);
+    const auto theory = analysis::deformed_limit(op, {.tolerance = 1e-10});
+    REQUIRE(theory.critical_time_step);
+    const auto found = study::bisect(study::GrowthRun<2>(problem, body, equilibrium.displacement, 1),
+                                     {.start = 0.5 * rest_step, .tolerance = bisection_tolerance});
+    REQUIRE(found.critical_time_step);
+    fprintf(stderr, "%s tip %g theory/rest %.6f run/theory-1 %.3e\n", ladder::describe(problem.scheme).c_str(),
+            displacement.lpNorm<Eigen::Infinity>() / length, *theory.critical_time_step / rest_step,
+            *found.critical_time_step / *theory.critical_time_step - 1);
+    CHECK(*found.critical_time_step == Approx(*theory.critical_time_step).epsilon(bisection_tolerance));
+    CHECK(std::abs(*theory.critical_time_step / rest_step - 1.0) > 1e-3);
+  }
+}
