@@ -39,8 +39,7 @@ struct BaseState {
 template <int Dim>
 std::vector<BaseState<Dim>> base_states();
 
-/// Every scheme on every lattice in every base state, with each of three kernels on the first lattice, with one of them
-/// on the others.
+/// Every scheme on every lattice in every base state, with one kernel, on the chain and the square lattice with three.
 template <int Dim>
 std::vector<NamedProblem<Dim>> every_finite_strain();
 

@@ -17,9 +17,12 @@ using study::PeriodicPatch;
 
 namespace {
 
-/// Per step. A run goes from strains of 1e-10 to 2e-5 and is fitted over its last third; the nonlinear force bends its
-/// growth by the square of the strain, and the rounding of positions, 1e-16, is 1e-6 of the wave at its smallest.
-constexpr double growth_tolerance = 1e-7;
+/// Rung 5, per step: the bound of the ladder. The run ends as soon as its growth is settled to 1e-4 of itself.
+constexpr double seeded_tolerance = 1e-5;
+/// Per step, of a run that goes from strains of 1e-10 to 2e-5 and back again and again. Where three waves of one growth
+/// add up to none their product bends it by the strain itself, in the mean over the e-foldings by a twelfth of 2e-5 of
+/// it, and it is 0.1; the rounding of positions beside strains of 1e-10 is a tenth of that.
+constexpr double noise_floor = 2e-7;
 
 /// ln of the largest spectral radius over the waves that a patch admits.
 template <int Dim>
@@ -70,7 +73,7 @@ TEMPLATE_TEST_CASE_SIG(
       const auto limit = std::get<analysis::ConditionallyStable<Dim>>(analysis::patch_limit(problem, cells));
       const double time_step = 1.01 * limit.critical_time_step;
       CHECK(std::abs(seeded_growth<Dim>(problem, cells, time_step) - theory_growth<Dim>(problem, cells, time_step)) <
-            growth_tolerance);
+            seeded_tolerance);
     }
 }
 
@@ -85,7 +88,7 @@ TEST_CASE("rung 5: beyond the loss of ellipticity finite strain grows as theory 
       const double time_step = 0.1 / limit.growth_rate;
       const double expected = theory_growth<2>(problem, cells, time_step);
       CHECK(expected > 0.09);
-      CHECK(std::abs(seeded_growth<2>(problem, cells, time_step) - expected) < growth_tolerance);
+      CHECK(std::abs(seeded_growth<2>(problem, cells, time_step) - expected) < seeded_tolerance);
       std::vector<double> growths;
       for (unsigned noise_seed = 1; noise_seed <= study::noise_runs; ++noise_seed) {
         study::GrowthRun<2> run(problem, periodic_patch(problem, cells), noise_seed);
@@ -96,9 +99,7 @@ TEST_CASE("rung 5: beyond the loss of ellipticity finite strain grows as theory 
       const Eigen::Map<const Eigen::VectorXd> g(growths.data(), study::noise_runs);
       const double mean = g.mean();
       const double error = std::sqrt((g.array() - mean).square().sum() / (study::noise_runs - 1.0) / study::noise_runs);
-      fprintf(stderr, "%s %s expected %.6f noise %.3e error %.3e\n", ladder::describe(problem.scheme).c_str(),
-              std::string(name_of(lattice)).c_str(), expected, mean - expected, error);
-      CHECK(std::abs(mean - expected) <= std::max(study::noise_standard_errors * error, growth_tolerance));
+      CHECK(std::abs(mean - expected) <= std::max(study::noise_standard_errors * error, noise_floor));
       CHECK(std::abs(mean - expected) <= study::growth_tolerance * expected);
     }
 }
