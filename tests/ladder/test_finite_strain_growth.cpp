@@ -2,8 +2,8 @@
 // Rung 5 of finite strain: growth of the running solver against theory.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <vector>
 
-#include "analysis/amplification.hpp"
 #include "analysis/critical_step.hpp"
 #include "analysis/ellipticity.hpp"
 #include "ladder/finite_strain_cases.hpp"
