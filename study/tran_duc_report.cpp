@@ -39,7 +39,7 @@ struct End {
   bool rests = false;
   bool is_broken = false;
   Vector<2> displacement = Vector<2>::Zero();
-  long steps = 0;
+  std::vector<Vector<2>> of_all = {};  ///< particles
 
   double drop() const { return -displacement[1]; }
 };
@@ -48,7 +48,7 @@ End end_of(const Beam& beam, const Method& method) {
   const auto scene = make_scene(beam_scene(beam, method));
   const Rest rest = rest_of(scene, tolerance);
   const auto reading = reading_at(scene, {beam.length, 0.5 * beam.height});
-  return {rest.converged, rest.is_broken, reading(rest.displacement), rest.steps};
+  return {rest.converged, rest.is_broken, reading(rest.displacement), rest.displacement};
 }
 
 /// F L²/(EI) with the E of plane strain.
@@ -347,15 +347,17 @@ io::ParticleFigure picture(const Runs& runs) {
   io::ParticleFigure figure{.title = "Cantilever under 250 N at rest, or where it breaks",
                             .x_label = "x",
                             .y_label = "y",
-                            .value_label = "",
+                            .value_label = "displacement",
                             .radius = 0.45 * paper_spacing,
                             .panels = {},
                             .columns = 2};
   for (const auto& method : methods()) {
     const Case& one = find(runs.bends, 250.0, method.name);
     const auto scene = make_scene(beam_scene(one.beam, one.method));
-    const Rest rest = rest_of(scene, 1e-3);
-    figure.panels.push_back(particle_panel<2>(std::string(method.name), scene.body, rest.displacement, 1.0, {}));
+    std::vector<double> distance;
+    for (const auto& u : one.end.of_all) distance.push_back(u.norm());
+    if (drawable<2>(scene.body, one.end.of_all))
+      figure.panels.push_back(particle_panel<2>(std::string(method.name), scene.body, one.end.of_all, 1.0, distance));
   }
   return figure;
 }
