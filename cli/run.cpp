@@ -61,6 +61,8 @@ std::string describe(const Json& answer) {
   if (answer.contains("predicted_growth_e_foldings"))
     text += row("WARNING", fmt::format("at this step theory predicts {} e-foldings of the fastest mode",
                                        number(answer, "predicted_growth_e_foldings", 3)));
+  if (answer.contains("critical_time_step_at_end"))
+    text += row("critical at the end", number(answer, "critical_time_step_at_end"));
   text += row("simulated", fmt::format("{} in {} steps", number(answer, "time"), answer["steps"].get<long>()));
   text += unstable_row(answer);
   text += row("displacement, at most", number(answer, "largest_displacement"));

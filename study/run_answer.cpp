@@ -182,6 +182,14 @@ Json to_json(const NonFiniteValue& failure) {
   return values;
 }
 
+/// The largest ω² about the last state, complex where the forces have no potential, and the step it allows.
+template <int Dim>
+void add_limit_at_end(const Scene<Dim>& scene, const Snapshot<Dim>& last, Json& answer) {
+  const auto limit = limit_about<Dim>(scene.problem, scene.body, last.displacement);
+  answer["critical_time_step_at_end"] = limit ? number_or_null(limit->critical_time_step) : Json();
+  answer["omega_squared_at_end"] = limit ? complex_pair(limit->largest.omega_squared) : Json();
+}
+
 /// Of `ul`: a step above the limit of the state at the start, or a state in which a particle is pulled.
 template <int Dim>
 std::optional<GrowthCause> cause_in_updated_lagrangian(const StepTheory& theory, double time_step,
@@ -314,6 +322,7 @@ Json run_answer(const Case& input, const Request& request) {
   answer["unstable"] = result.failure || result.growth ||
                        has_grown(result.summary, can_grow, energy_of_rounding(scene)) ||
                        !result.summary.lost_particles.empty();
+  if (is_finite_strain(scheme.formulation)) add_limit_at_end(scene, result.last, answer);
   if (const auto& growth = result.growth)
     answer["growth"] = {{"step", growth->step}, {"time", growth->time}, {"cause", to_json(growth->cause)}};
   else if (answer["unstable"].get<bool>() && !is_total_lagrangian(scheme.formulation))

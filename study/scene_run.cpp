@@ -87,8 +87,8 @@ class LagrangianMotion {
 
   /// Whether a step is above the critical one of a state.
   bool is_above_limit(double time_step, const State& state) const {
-    const auto limit = critical_step_about(scene_.problem, scene_.body, state.displacement);
-    return limit && time_step > *limit;
+    const auto limit = limit_about<Dim>(scene_.problem, scene_.body, state.displacement);
+    return limit && limit->critical_time_step && time_step > *limit->critical_time_step;
   }
 
   /// Of finite strain: whether the most compressed particle is turned inside out or has no waves in some direction.

@@ -222,7 +222,7 @@ Report speed_report(const Progress& progress) {
       "## Ways to the critical step\n\nOf the lattice of that cantilever, and of a free plate of {}×{} particles of "
       "it; "
       "errors against the certified maximum and the\nfactorised spectrum. Medians; the runs of a bisection once.\n\n{}",
-      force, tolerance, plate_across, plate_across, io::to_markdown(point_table(all)),
+      force, tolerance, io::to_markdown(point_table(all)), plate_across, plate_across,
       io::to_markdown(way_table(found)));
   report.files = {{"README.md", "# Speed against error\n\n" + report.summary +
                                     "\n![to rest](rest.svg)\n\n![critical steps](steps.svg)\n\nRegenerate with "

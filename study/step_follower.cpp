@@ -32,12 +32,12 @@ template <int Dim>
 StepFollower<Dim>::StepFollower(const Problem<Dim>& problem, const Body<Dim>& body)
     : operator_(problem, body), interval_(first_interval) {
   const double start = thread_seconds();
-  critical_step_ = limit_about({.tolerance = converged});
+  critical_step_ = limit_of_state({.tolerance = converged});
   work_.cpu_seconds += thread_seconds() - start;
 }
 
 template <int Dim>
-std::optional<double> StepFollower<Dim>::limit_about(const analysis::DeformedLimitOptions& options) {
+std::optional<double> StepFollower<Dim>::limit_of_state(const analysis::DeformedLimitOptions& options) {
   analysis::DeformedLimit limit = analysis::deformed_limit(operator_, options);
   mode_ = std::move(limit.largest.vector);
   ++work_.updates;
@@ -55,11 +55,11 @@ void StepFollower<Dim>::update(const std::vector<Vector<Dim>>& displacement) {
     interval_ = least_interval;
     return;
   }
-  const auto limit = limit_about({.dimension = applications,
-                                  .most = applications,
-                                  .start = mode_,
-                                  .noise = noise_beside_mode,
-                                  .seed = static_cast<unsigned>(work_.updates)});
+  const auto limit = limit_of_state({.dimension = applications,
+                                     .most = applications,
+                                     .start = mode_,
+                                     .noise = noise_beside_mode,
+                                     .seed = static_cast<unsigned>(work_.updates)});
   work_.cpu_seconds += thread_seconds() - start;
   if (!limit || !critical_step_) return;
   const double change = std::abs(*limit / *critical_step_ - 1.0);
@@ -69,8 +69,8 @@ void StepFollower<Dim>::update(const std::vector<Vector<Dim>>& displacement) {
 }
 
 template <int Dim>
-std::optional<double> critical_step_about(const Problem<Dim>& problem, const Body<Dim>& body,
-                                          const std::vector<Vector<Dim>>& displacement) {
+std::optional<analysis::DeformedLimit> limit_about(const Problem<Dim>& problem, const Body<Dim>& body,
+                                                   const std::vector<Vector<Dim>>& displacement) {
   analysis::DeformedBodyOperator<Dim> body_operator(problem, body);
   Eigen::VectorXd flat;
   flatten<Dim>(displacement, flat);
@@ -79,14 +79,17 @@ std::optional<double> critical_step_about(const Problem<Dim>& problem, const Bod
   } catch (const InvalidInput&) {
     return std::nullopt;
   }
-  return analysis::deformed_limit(body_operator, {.tolerance = converged}).critical_time_step;
+  return analysis::deformed_limit(body_operator, {.tolerance = converged});
 }
 
 template class StepFollower<1>;
 template class StepFollower<2>;
 template class StepFollower<3>;
-template std::optional<double> critical_step_about(const Problem<1>&, const Body<1>&, const std::vector<Vector<1>>&);
-template std::optional<double> critical_step_about(const Problem<2>&, const Body<2>&, const std::vector<Vector<2>>&);
-template std::optional<double> critical_step_about(const Problem<3>&, const Body<3>&, const std::vector<Vector<3>>&);
+template std::optional<analysis::DeformedLimit> limit_about(const Problem<1>&, const Body<1>&,
+                                                            const std::vector<Vector<1>>&);
+template std::optional<analysis::DeformedLimit> limit_about(const Problem<2>&, const Body<2>&,
+                                                            const std::vector<Vector<2>>&);
+template std::optional<analysis::DeformedLimit> limit_about(const Problem<3>&, const Body<3>&,
+                                                            const std::vector<Vector<3>>&);
 
 }  // namespace sphstab::study

@@ -41,7 +41,7 @@ class StepFollower {
   const FollowingWork& work() const { return work_; }
 
  private:
-  std::optional<double> limit_about(const analysis::DeformedLimitOptions& options);
+  std::optional<double> limit_of_state(const analysis::DeformedLimitOptions& options);
 
   analysis::DeformedBodyOperator<Dim> operator_;
   Eigen::VectorXd mode_;
@@ -51,19 +51,20 @@ class StepFollower {
   FollowingWork work_;
 };
 
-/// The critical step of a body of finite strain about a displacement, converged; nothing where there is none.
+/// The largest ω² of a body of finite strain about a displacement, converged, and the critical step; nothing where a
+/// particle is turned inside out.
 template <int Dim>
-std::optional<double> critical_step_about(const Problem<Dim>& problem, const Body<Dim>& body,
-                                          const std::vector<Vector<Dim>>& displacement);
+std::optional<analysis::DeformedLimit> limit_about(const Problem<Dim>& problem, const Body<Dim>& body,
+                                                   const std::vector<Vector<Dim>>& displacement);
 
 extern template class StepFollower<1>;
 extern template class StepFollower<2>;
 extern template class StepFollower<3>;
-extern template std::optional<double> critical_step_about(const Problem<1>&, const Body<1>&,
-                                                          const std::vector<Vector<1>>&);
-extern template std::optional<double> critical_step_about(const Problem<2>&, const Body<2>&,
-                                                          const std::vector<Vector<2>>&);
-extern template std::optional<double> critical_step_about(const Problem<3>&, const Body<3>&,
-                                                          const std::vector<Vector<3>>&);
+extern template std::optional<analysis::DeformedLimit> limit_about(const Problem<1>&, const Body<1>&,
+                                                                   const std::vector<Vector<1>>&);
+extern template std::optional<analysis::DeformedLimit> limit_about(const Problem<2>&, const Body<2>&,
+                                                                   const std::vector<Vector<2>>&);
+extern template std::optional<analysis::DeformedLimit> limit_about(const Problem<3>&, const Body<3>&,
+                                                                   const std::vector<Vector<3>>&);
 
 }  // namespace sphstab::study

@@ -97,6 +97,9 @@ TEST_CASE("a run with the step auto says how it was followed", "[fast]") {
   CHECK(followed["followed"]["updates"].get<int>() >= 1);
   CHECK(number(followed["followed"]["smallest_time_step"]) <= number(followed["followed"]["largest_time_step"]));
   CHECK(number(followed["time_step"]) == Approx(0.9 * number(followed["critical_time_step"])));
+  CHECK(number(followed["critical_time_step_at_end"]) == Approx(number(followed["critical_time_step"])).epsilon(0.05));
+  CHECK(number(followed["omega_squared_at_end"][0]) ==
+        Approx(4.0 / std::pow(number(followed["critical_time_step_at_end"]), 2)).epsilon(1e-9));
   const Json half = run({"run", "--scene", scene.string(), "--step-fraction", "0.45", "--format", "json"}).json();
   CHECK(number(half["probes"]["end"]["displacement"][1]) ==
         Approx(number(followed["probes"]["end"]["displacement"][1])).epsilon(0.01));
