@@ -404,7 +404,9 @@ class Run {
 
   void name_growth(bool ellipticity_is_lost) {
     growth_ = {step_, time(), std::nullopt};
-    if (motion_.is_above_limit(time_step_, calm_))
+    // What grows may have strained the state before already, so that its limit is another one.
+    const bool too_long = follower_ ? *options_.followed_fraction > 1.0 : motion_.is_above_limit(time_step_, start_);
+    if (too_long || motion_.is_above_limit(time_step_, calm_))
       growth_->cause = GrowthCause::time_step;
     else if (ellipticity_is_lost)
       growth_->cause = GrowthCause::loss_of_ellipticity;
@@ -554,6 +556,7 @@ class Run {
   std::optional<NonFiniteValue> failure_;
   bool watches_growth_ = is_finite_strain(scene_.problem.scheme.formulation);
   double largest_work_ = 0.0;
+  typename Motion::State start_ = last_finite_;
   typename Motion::State calm_ = last_finite_;  ///< when growth had not been seen yet
   std::optional<RunGrowth> growth_;
 };

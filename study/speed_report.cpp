@@ -126,15 +126,17 @@ std::vector<Way> ways() {
 std::vector<Point> points(const Progress& progress) {
   std::vector<Point> all;
   const auto methods_of_beams = methods();
+  const auto add = [&](std::string_view scene, int method, double spacing, double fraction) {
+    all.push_back({scene, methods_of_beams[method], spacing, fraction});
+  };
   for (int method : {0, 1}) {
     for (const double spacing : beam_spacings)
-      for (const double fraction : fractions)
-        all.push_back({"cantilever", methods_of_beams[method], spacing, fraction});
+      for (const double fraction : fractions) add("cantilever", method, spacing, fraction);
     for (const double spacing : bar_spacings)
-      for (const double fraction : fractions)
-        if (method == 1) all.push_back({"CSM1", methods_of_beams[method], spacing, fraction});
+      for (const double fraction : fractions) add("CSM1", method, spacing, fraction);
   }
-  // The current-configuration schemes break under this force; what they take and miss is in report tran-duc.
+  // Without artificial stress ul breaks under this force, and with it takes a quarter of the limit of its lattice.
+  for (const double spacing : {beam_spacings[0], beam_spacings[1]}) add("cantilever", 3, spacing, fractions.back());
   double done = 0.0;
   for (auto& point : all) {
     measure(point);

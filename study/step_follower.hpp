@@ -21,9 +21,8 @@ struct FollowingWork {
 /// `tl-pk1`: they are above the limit, by what the fraction of it that a run takes has to leave room for.
 ///
 /// The next update is due after a number of steps that is doubled where the limit has hardly changed and halved where
-/// it has changed much. A step and an update cost 2 and 2 × `applications` sums over the pairs and the moduli of every
-/// particle, so that at the least interval an update takes a part of `least_interval`⁻¹ × 20. Nothing depends on how
-/// fast the machine is. Tested in tests/study/test_step_follower.cpp.
+/// it has changed much: an update takes about as long as twenty steps, one every thousand of them 2 % of a run. Nothing
+/// depends on how fast the machine is. Tested in tests/study/test_step_follower.cpp.
 template <int Dim>
 class StepFollower {
  public:

@@ -48,12 +48,12 @@ TEST_CASE("a followed run of a swinging truss keeps its energy and its answer", 
 }
 
 TEST_CASE("a run above its limit is stopped, and the step is named", "[fast]") {
-  for (const int method : {0, 1}) {
+  for (const auto& [method, fraction] : {std::pair(0, 1.05), {1, 1.05}, {1, 1.01}}) {
     const auto scene = bar(method);
-    const auto result = run_scene<2>(scene, {.time_step = step_of(scene, 1.05), .duration = 2.0, .snapshots = 3});
+    const auto result = run_scene<2>(scene, {.time_step = step_of(scene, fraction), .duration = 2.0, .snapshots = 3});
     REQUIRE(result.growth);
     CHECK(result.growth->cause == GrowthCause::time_step);
-    CHECK(result.summary.time < 0.5);
+    CHECK(result.summary.time < 1.0);
     for (const auto& u : result.last.displacement) CHECK(u.allFinite());
   }
 }
