@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/spectrum.hpp"
+#include "study/bonds.hpp"
 #include "study/relaxation.hpp"
 #include "study/step_comparison.hpp"
 
@@ -121,17 +122,6 @@ PointReading reading_at(const Scene<2>& scene, const Vector<2>& point) {
   return reading;
 }
 
-double largest_gap(const Scene<2>& scene, const std::vector<Vector<2>>& displacement) {
-  const auto& pairs = scene.body.pairs;
-  const double spacing = scene.problem.lattice.spacing();
-  double largest = 0.0;
-  for (int a = 0; a < scene.body.size(); ++a)
-    for (int entry = pairs.first[a]; entry < pairs.first[a + 1]; ++entry)
-      if (const Vector<2>& apart = pairs.separation[entry]; apart.norm() < 1.1 * spacing)
-        largest = std::max(largest, (apart + displacement[a] - displacement[pairs.neighbour[entry]]).norm());
-  return largest / spacing;
-}
-
 double step_of(const Scene<2>& scene, double fraction) {
   if (is_total_lagrangian(scene.problem.scheme.formulation))
     return fraction * analysis::body_limit(scene.problem, scene.body,
@@ -145,11 +135,12 @@ double step_of(const Scene<2>& scene, double fraction) {
 Rest rest_of(const Scene<2>& scene, double tolerance, double fraction) {
   const bool updated = !is_total_lagrangian(scene.problem.scheme.formulation);
   const double time_step = step_of(scene, updated ? std::min(fraction, updated_fraction) : fraction);
+  const Bonds bonds(scene);
   Rest rest{.converged = false, .displacement = {}, .steps = 0, .time_step = time_step, .is_broken = false};
   const auto found = relax<2>(scene.problem, scene.body,
                               {.time_step = time_step, .tolerance = tolerance, .largest_steps = most_resting_steps},
                               [&](const std::vector<Vector<2>>& displacement) {
-                                return rest.is_broken = !(largest_gap(scene, displacement) < broken_gap);
+                                return rest.is_broken = bonds.first_parted(displacement, broken_gap).has_value();
                               });
   rest.converged = found.converged;
   rest.displacement = found.displacement;

@@ -78,8 +78,7 @@ struct Rest {
   bool is_broken;
 };
 
-/// Largest distance of neighbours on the lattice, in spacings.
-double largest_gap(const Scene<2>& scene, const std::vector<Vector<2>>& displacement);
+/// A beam is broken where neighbours on the lattice are farther apart than so many spacings.
 inline constexpr double broken_gap = 1.5;
 
 /// What relaxation takes of the critical step unless it is told.

@@ -7,6 +7,7 @@
 
 #include "analysis/critical_step.hpp"
 #include "study/beam_theory.hpp"
+#include "study/bonds.hpp"
 #include "study/p_wave_speed.hpp"
 #include "study/scene_run.hpp"
 
@@ -55,21 +56,6 @@ double e_foldings(const Plate& plate, const std::vector<double>& tension, double
     sum += std::lerp(rates[i], rates[i + 1], place - i) * interval;
   }
   return sum;
-}
-
-struct Bond {
-  int a, b;
-};
-
-/// Pairs of particles that are one spacing apart.
-std::vector<Bond> bonds(const Scene<2>& scene) {
-  const auto& pairs = scene.body.pairs;
-  std::vector<Bond> found;
-  for (int a = 0; a < scene.body.size(); ++a)
-    for (int entry = pairs.first[a]; entry < pairs.first[a + 1]; ++entry)
-      if (a < pairs.neighbour[entry] && pairs.separation[entry].norm() < 1.1 * scene.problem.lattice.spacing())
-        found.push_back({a, pairs.neighbour[entry]});
-  return found;
 }
 
 /// What the deflection of the tip says: when it crosses 0, and how far it goes in between.
@@ -137,7 +123,7 @@ Problem<2> problem_in_tension(const Plate& plate, double tension) {
 Oscillation oscillate(const Plate& plate, double periods, int images,
                       const std::function<void(double fraction)>& progress) {
   const Scene<2> scene = make_scene(plate_scene(plate));
-  const std::vector<Bond> all_bonds = bonds(scene);
+  const Bonds bonds(scene);
   Oscillation run{};
   std::optional<std::pair<double, Bond>> first_parted;
   const long every = images > 1 ? looks / (images - 1) : looks + 1;
@@ -146,12 +132,8 @@ Oscillation oscillate(const Plate& plate, double periods, int images,
                              .duration = periods * slender_period(plate.height - plate.spacing(), plate.shear_modulus),
                              .snapshots = looks};
   options.visit = [&](const Snapshot<2>& snapshot) {
-    const auto position = [&](int a) { return Vector<2>(scene.body.position[a] + snapshot.displacement[a]); };
-    const auto is_parted = [&](const Bond& bond) {
-      return (position(bond.a) - position(bond.b)).norm() > parted * plate.spacing();
-    };
-    const auto bond = first_parted ? all_bonds.end() : std::find_if(all_bonds.begin(), all_bonds.end(), is_parted);
-    if (bond != all_bonds.end()) first_parted = {snapshot.time, *bond};
+    if (const auto bond = first_parted ? std::nullopt : bonds.first_parted(snapshot.displacement, parted))
+      first_parted = {snapshot.time, *bond};
     if (images > 0 && look++ % every == 0) {
       run.images.push_back({snapshot.time, snapshot.displacement, {}});
       for (const auto& stress : snapshot.stress) run.images.back().stress.push_back(stress(0, 0));

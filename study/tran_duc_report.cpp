@@ -8,6 +8,7 @@
 #include "io/document.hpp"
 #include "io/figure.hpp"
 #include "study/beams.hpp"
+#include "study/bonds.hpp"
 #include "study/elastica.hpp"
 #include "study/parallel.hpp"
 #include "study/particle_pictures.hpp"
@@ -109,21 +110,14 @@ struct Fall {
 void fall(Fall& run) {
   const auto scene = make_scene(beam_scene(cantilever(run.force, paper_spacing), run.method));
   const auto reading = reading_at(scene, {beam_length, 0.01});
+  const Bonds bonds(scene);
   const auto visit = [&](const Snapshot<2>& snapshot) {
     if (run.broken) return;
     run.largest_drop = std::max(run.largest_drop, -reading(snapshot.displacement)[1]);
-    const auto& pairs = scene.body.pairs;
-    for (int a = 0; a < scene.body.size() && !run.broken; ++a)
-      for (int entry = pairs.first[a]; entry < pairs.first[a + 1]; ++entry) {
-        const int b = pairs.neighbour[entry];
-        if (pairs.separation[entry].norm() < 1.1 * paper_spacing &&
-            (pairs.separation[entry] + snapshot.displacement[a] - snapshot.displacement[b]).norm() >
-                broken_gap * paper_spacing) {
-          run.broken = snapshot.time;
-          run.place = scene.body.position[a];
-          break;
-        }
-      }
+    if (const auto bond = bonds.first_parted(snapshot.displacement, broken_gap)) {
+      run.broken = snapshot.time;
+      run.place = scene.body.position[bond->a];
+    }
   };
   run_scene<2>(
       scene, {.time_step = step_of(scene, 0.5), .duration = falling_time, .snapshots = falling_looks, .visit = visit});
