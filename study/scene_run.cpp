@@ -305,7 +305,11 @@ class Run {
     momentum_at_change_ = momentum_without_drift();
     time_of_change_ = time();
     step_of_change_ = step_;
-    if (scene_.problem.integrator == Integrator::leapfrog) motion_.kick(0.5 * (time_step_ - time_step));
+    if (scene_.problem.integrator == Integrator::leapfrog) {
+      const double kick = 0.5 * (time_step_ - time_step);
+      motion_.kick(kick);
+      momentum_at_change_ += kick * total_force_;
+    }
     time_step_ = time_step;
     steps_ = step_ + static_cast<long>(
                          std::ceil((options_.duration - time_of_change_) / time_step * (1.0 - rounding_of_steps)));
