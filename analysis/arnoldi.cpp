@@ -115,6 +115,7 @@ ArnoldiResult arnoldi(const LinearOperator& apply, const Eigen::VectorXd& start,
     if (!open || residual <= options.tolerance * largest || applications >= options.most)
       return {ritz.eigenvalues()[order.front()], residual, largest, applications, space.vector(y)};
     space.restart(wanted_half(ritz, order));
+    if (options.progress) options.progress(applications);
   }
 }
 

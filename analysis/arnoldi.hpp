@@ -21,6 +21,7 @@ struct ArnoldiOptions {
   int dimension = 30;       ///< of the Krylov space, 4 or more: vectors that are kept, one more in all
   double tolerance = 1e-8;  ///< of the residual, relative to the largest modulus of a Ritz value
   long most = 4000;         ///< applications; `dimension` of them or fewer make an estimate without a restart
+  std::function<void(long applications)> progress = nullptr;  ///< so far, at every restart
 };
 
 /// An eigenvalue as the last Krylov space shows it; of a complex pair that with a positive imaginary part.

@@ -80,6 +80,14 @@ class LinearisedBody {
   std::vector<Tensor<Dim>> stress_;
 };
 
+/// The displacements of all particles as one vector, the components of a particle adjacent.
+template <int Dim>
+Eigen::VectorXd components_of(const std::vector<Vector<Dim>>& displacement) {
+  Eigen::VectorXd components(Dim * static_cast<Eigen::Index>(displacement.size()));
+  for (std::size_t a = 0; a < displacement.size(); ++a) components.template segment<Dim>(Dim * a) = displacement[a];
+  return components;
+}
+
 extern template class LinearisedBody<1>;
 extern template class LinearisedBody<2>;
 extern template class LinearisedBody<3>;

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
+#include <optional>
 
 namespace sphstab::analysis {
 namespace {
@@ -56,7 +57,7 @@ template <int Dim>
 class PolarDecomposition {
  public:
   explicit PolarDecomposition(const Tensor<Dim>& F) {
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<Small> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
     axes_ = svd.matrixV();
     stretches_ = svd.singularValues();
     rotation_ = svd.matrixU() * axes_.transpose();
@@ -74,6 +75,9 @@ class PolarDecomposition {
   }
 
  private:
+  /// Of that size, without an allocation; of a fixed size compilers take the decomposition for uninitialised.
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, Dim, Dim>;
+
   Tensor<Dim> axes_;
   Vector<Dim> stretches_;
   Tensor<Dim> rotation_;
@@ -84,16 +88,16 @@ class PolarDecomposition {
 template <int Dim>
 TangentModuli<Dim> tangent_moduli(const Scheme& scheme, const LameConstants& lame, const Tensor<Dim>& F) {
   const ElasticResponse<Dim> response(scheme.elastic_law, lame, F);
-  const PolarDecomposition<Dim> polar(F);
-  const bool corotated = scheme.formulation == Formulation::total_lagrangian_corotated;
+  std::optional<PolarDecomposition<Dim>> polar;
+  if (scheme.formulation == Formulation::total_lagrangian_corotated) polar.emplace(F);
   TangentModuli<Dim> moduli;
   for (int column = 0; column < Dim * Dim; ++column) {
     Tensor<Dim> of_gradient = Tensor<Dim>::Zero();
     of_gradient(column) = 1.0;
     const Tensor<Dim> of_stress = response.stress_change(symmetric_part<Dim>(F.transpose() * of_gradient));
     Tensor<Dim> change;
-    if (corotated)
-      change = polar.rotation() * (polar.spin(of_gradient) * response.stress() + of_stress);
+    if (polar)
+      change = polar->rotation() * (polar->spin(of_gradient) * response.stress() + of_stress);
     else
       change = of_gradient * response.stress() + F * of_stress;
     moduli.col(column) = change.reshaped();

@@ -63,7 +63,7 @@ CaseCommand bisect_command() {
   return {"bisect",
           "the critical time step found by running the solver (or --command), beside theory",
           {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress, KeyGroup::body,
-           KeyGroup::patch, KeyGroup::search},
+           KeyGroup::noise, KeyGroup::search},
           study::bisection_answer,
           describe,
           status};

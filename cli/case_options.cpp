@@ -35,7 +35,7 @@ std::string_view group_title(KeyGroup group) {
     case KeyGroup::growth:
       return "Time step";
     case KeyGroup::body:
-    case KeyGroup::patch:
+    case KeyGroup::noise:
       return "Body";
     case KeyGroup::search:
       return "Search";

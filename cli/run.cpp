@@ -85,7 +85,7 @@ CaseCommand run_command() {
   return {.name = "run",
           .summary = "run a scene and store its states, pictures and probes",
           .groups = {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress,
-                     KeyGroup::body, KeyGroup::patch, KeyGroup::time, KeyGroup::run},
+                     KeyGroup::body, KeyGroup::noise, KeyGroup::time, KeyGroup::run},
           .answer = study::run_answer,
           .describe = describe,
           .status = status,

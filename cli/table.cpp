@@ -165,7 +165,7 @@ void TableOptions::add_to(CLI::App& app) {
   app.add_flag("--overwrite", overwrite, "replace a file that exists, and a journal of another sweep");
   base.add_to(app, {KeyGroup::discretisation, KeyGroup::material, KeyGroup::scheme, KeyGroup::artificial_stress,
                     KeyGroup::mode, KeyGroup::path, KeyGroup::time, KeyGroup::growth, KeyGroup::body,
-                    KeyGroup::spectrum, KeyGroup::run, KeyGroup::patch, KeyGroup::search, KeyGroup::distance});
+                    KeyGroup::spectrum, KeyGroup::run, KeyGroup::noise, KeyGroup::search, KeyGroup::distance});
 }
 
 int run_table(const TableOptions& options, const std::string& format) {

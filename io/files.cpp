@@ -124,6 +124,10 @@ std::string read_file(const fs::path& path) {
   return naming(path, [&] { return read_all(Descriptor(path, O_RDONLY).get()); });
 }
 
+void check_input(const fs::path& path) {
+  naming(path, [&] { Descriptor(path, O_RDONLY); });
+}
+
 void write_file(const fs::path& path, std::string_view text, Existing existing) {
   PendingFile file(path, existing);
   naming(path, [&] { write_to_disk(file.assembly(), text); });

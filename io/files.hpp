@@ -16,6 +16,9 @@ enum class Existing { refuse, replace };
 /// The bytes of a file. Throws InvalidInput naming the path and the reason.
 std::string read_file(const std::filesystem::path& path);
 
+/// Throws what read_file would throw where the file cannot be opened.
+void check_input(const std::filesystem::path& path);
+
 /// Writes `text` to `path`, so that the file appears whole or not at all, whatever happens to the program or the
 /// machine. Throws InvalidInput naming the path and the reason, and then leaves nothing behind.
 void write_file(const std::filesystem::path& path, std::string_view text, Existing existing = Existing::refuse);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "io/hdf5.hpp"
 
+#include <fmt/format.h>
 #include <hdf5.h>
 
 #include <array>
 #include <cerrno>
 #include <system_error>
 #include <type_traits>
+
+#include "io/files.hpp"
+#include "model/errors.hpp"
 
 namespace sphstab::io {
 namespace {
@@ -47,12 +51,17 @@ void write_set(hid_t file, const std::string& name, hid_t file_type, hid_t memor
   checked(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
 }
 
-}  // namespace
-
-Hdf5File::Hdf5File(const std::filesystem::path& path) {
+/// Before a file is opened.
+void keep_quiet() {
   H5dont_atexit();                              // at exit it would crash over a file that it could not write
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints nothing
   errno = 0;
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(const std::filesystem::path& path) {
+  keep_quiet();
   file_ = checked(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT));
 }
 
@@ -73,6 +82,29 @@ void Hdf5File::close() {
   checked(H5Fflush(file_, H5F_SCOPE_LOCAL));
   checked(H5Fclose(file_));
   file_ = -1;
+}
+
+Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
+  check_input(path);
+  keep_quiet();
+  file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file_ < 0) throw InvalidInput(fmt::format("{}: is no HDF5 file", path.string()));
+}
+
+Hdf5Input::~Hdf5Input() { H5Fclose(file_); }
+
+bool Hdf5Input::has(const std::string& name) const { return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0; }
+
+std::vector<double> Hdf5Input::read(const std::string& name) const {
+  try {
+    const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    std::vector<double> values(checked(H5Sget_simple_extent_npoints(space.get())));
+    checked(H5Dread(set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    return values;
+  } catch (const std::system_error&) {
+    throw InvalidInput(fmt::format("{}: has no data set {} that can be read", path_.string(), name));
+  }
 }
 
 }  // namespace sphstab::io

@@ -29,4 +29,23 @@ class Hdf5File {
   std::int64_t file_;
 };
 
+/// An HDF5 file that is read. Throws InvalidInput naming the file, and what of it cannot be read.
+class Hdf5Input {
+ public:
+  explicit Hdf5Input(const std::filesystem::path& path);
+  ~Hdf5Input();
+  Hdf5Input(const Hdf5Input&) = delete;
+  Hdf5Input& operator=(const Hdf5Input&) = delete;
+
+  /// Whether there is a group or data set of that name; its groups have to exist.
+  bool has(const std::string& name) const;
+
+  /// All values of a data set, row after row.
+  std::vector<double> read(const std::string& name) const;
+
+ private:
+  std::filesystem::path path_;
+  std::int64_t file_;
+};
+
 }  // namespace sphstab::io

@@ -108,6 +108,8 @@ const Key table[] = {
 
     {"plate", integers, KeyGroup::body, "", "particles of a free rectangular plate", {.low = 2.0}},
     {"scene", text, KeyGroup::body, "", "TOML file of a scene: its bodies, how they are held and loaded, and keys"},
+    {"patch", integers, KeyGroup::body, "",
+     "periodic cells along each primitive vector; bisect: default 16 each, 8 in 3D", at_least_one},
     {"gravity", numbers, KeyGroup::body, "", "gravitational acceleration; default zeros"},
 
     {"lowest_modes", integer, spectrum, "", "number of lowest modes and frequencies to compute", at_least_one},
@@ -115,6 +117,9 @@ const Key table[] = {
      "proof that no frequency is larger: a factorisation, a norm bound, or a bound for a random start; auto takes the "
      "tightest that the size of the body allows",
      any_number, upper_bound_words},
+    {"state", text, spectrum, "",
+     "tl-corotated, tl-pk1: states.h5 of a run of the same body, about a state of which the spectrum is"},
+    {"snapshot", integer, spectrum, "", "which of its states, from 0; default the last", not_negative},
 
     {"duration", number, run, "", "time that is simulated", positive},
     {"step_fraction", number, run, "0.9",
@@ -125,11 +130,9 @@ const Key table[] = {
      "random velocities at the start, of every component uniform within this many p-wave speeds", not_negative},
     {"snapshots", integer, run, "10", "states that are stored after the first, at equal intervals", at_least_one},
 
-    {"patch", integers, KeyGroup::patch, "",
-     "periodic cells along each primitive vector; bisect: default 16 each, 8 in 3D", at_least_one},
     {"seed", word, search, "noise", "start from noise, or from the critical mode of the theory", any_number,
      seed_words},
-    {"noise_seed", integer, KeyGroup::patch, "1", "seed of the random numbers", not_negative},
+    {"noise_seed", integer, noise, "1", "seed of the random numbers", not_negative},
     {"tolerance",
      number,
      search,

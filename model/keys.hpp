@@ -24,7 +24,7 @@ enum class KeyGroup {
   time,
   growth,
   body,
-  patch,
+  noise,
   search,
   spectrum,
   run,

@@ -276,7 +276,6 @@ class RunFiles {
 
 template <int Dim>
 Json run_answer(const Case& input, const Request& request) {
-  if (!names_body(input) && !input.has("patch")) throw InvalidInput("scene: missing (or plate or patch)");
   const auto scene = make_scene<Dim>(input);
   require_running_artificial_stress(scene.problem.scheme);
   const double duration = input.required_number("duration");

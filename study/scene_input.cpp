@@ -51,6 +51,8 @@ Scene<Dim> named_scene(const Case& input) {
 
 template <int Dim>
 void require_equilibrium(const Scene<Dim>& scene) {
+  if (!scene.periodic_cells && scene.problem.deformation_gradient != Tensor<Dim>::Identity())
+    throw InvalidInput("deformation_gradient: a free body takes none, it would not be in equilibrium");
   const bool stressed = scene.problem.pressure != 0.0 || !scene.problem.deviatoric_stress.isZero(0.0);
   if (stressed && !scene.periodic_cells)
     throw InvalidInput(
@@ -72,7 +74,7 @@ void add_noise(Scene<Dim>& scene, double speed, unsigned seed) {
 
 template <int Dim>
 Scene<Dim> make_scene(const Case& input) {
-  if (!names_body(input) && !input.has("patch")) throw InvalidInput("scene: missing (or plate)");
+  if (!names_body(input) && !input.has("patch")) throw InvalidInput("scene: missing (or plate or patch)");
   Scene<Dim> scene = named_scene<Dim>(input);
   require_equilibrium(scene);
   if (const double speed = input.required_number("initial_noise"); speed > 0.0)

@@ -11,9 +11,9 @@ bool names_body(const Case& input);
 
 /// What the case names, with its problem: a free plate, a periodic patch, or the scene of the file (its keys are in
 /// `input` already, io::with_scene_keys), which may be a patch. `initial_noise` adds to the velocities of all particles
-/// that are not held. Throws InvalidInput if the case names nothing, or two of them; (`pressure`) where a body of `ul`
-/// with free surfaces has a stress, under which it is in no equilibrium; and for whatever else is wrong. Tested in
-/// tests/study/test_scene_input.cpp.
+/// that are not held. Throws InvalidInput if the case names nothing, or two of them; where a body with
+/// free surfaces has a base state in which it is in no equilibrium (`pressure` of `ul`, `deformation_gradient`); and
+/// for whatever else is wrong. Tested in tests/study/test_scene_input.cpp.
 template <int Dim>
 Scene<Dim> make_scene(const Case& input);
 

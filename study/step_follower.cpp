@@ -9,6 +9,10 @@
 namespace sphstab::study {
 namespace {
 
+/// Of the first limit: ω² is right to the square of the residual over the gaps between the largest eigenvalues, to 1e-6
+/// or better, and with so small Krylov spaces their orthogonalisation costs less than the operator.
+constexpr int small_space = 12;
+constexpr double residual_at_rest = 1e-4;
 /// Applications of an update, and the noise beside the mode it starts from: a new mode of a corner grows by the fourth
 /// power or so of the ratio of eigenvalues in so many.
 constexpr int applications = 8;
@@ -17,14 +21,8 @@ constexpr double noise_beside_mode = 0.05;
 constexpr long first_interval = 1000, least_interval = 250, largest_interval = 8000;
 /// Relative changes of the limit at which the interval is doubled and halved.
 constexpr double small_change = 1e-3, large_change = 1e-2;
-/// Of the limits that are converged: Δt is right to half of it.
+/// Of limits that are told: Δt is right to half of it.
 constexpr double converged = 1e-6;
-
-template <int Dim>
-void flatten(const std::vector<Vector<Dim>>& displacement, Eigen::VectorXd& flat) {
-  flat.resize(Dim * static_cast<Eigen::Index>(displacement.size()));
-  for (std::size_t a = 0; a < displacement.size(); ++a) flat.segment<Dim>(Dim * a) = displacement[a];
-}
 
 }  // namespace
 
@@ -32,7 +30,7 @@ template <int Dim>
 StepFollower<Dim>::StepFollower(const Problem<Dim>& problem, const Body<Dim>& body)
     : operator_(problem, body), interval_(first_interval) {
   const double start = thread_seconds();
-  critical_step_ = limit_of_state({.tolerance = converged});
+  critical_step_ = limit_of_state({.dimension = small_space, .tolerance = residual_at_rest});
   work_.cpu_seconds += thread_seconds() - start;
 }
 
@@ -48,9 +46,8 @@ std::optional<double> StepFollower<Dim>::limit_of_state(const analysis::Deformed
 template <int Dim>
 void StepFollower<Dim>::update(const std::vector<Vector<Dim>>& displacement) {
   const double start = thread_seconds();
-  flatten<Dim>(displacement, flat_);
   try {
-    operator_.set_state(flat_);
+    operator_.set_state(analysis::components_of<Dim>(displacement));
   } catch (const InvalidInput&) {  // turned inside out: what follows will show
     interval_ = least_interval;
     return;
@@ -72,10 +69,8 @@ template <int Dim>
 std::optional<analysis::DeformedLimit> limit_about(const Problem<Dim>& problem, const Body<Dim>& body,
                                                    const std::vector<Vector<Dim>>& displacement) {
   analysis::DeformedBodyOperator<Dim> body_operator(problem, body);
-  Eigen::VectorXd flat;
-  flatten<Dim>(displacement, flat);
   try {
-    body_operator.set_state(flat);
+    body_operator.set_state(analysis::components_of<Dim>(displacement));
   } catch (const InvalidInput&) {
     return std::nullopt;
   }

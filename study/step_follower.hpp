@@ -44,7 +44,6 @@ class StepFollower {
 
   analysis::DeformedBodyOperator<Dim> operator_;
   Eigen::VectorXd mode_;
-  Eigen::VectorXd flat_;
   std::optional<double> critical_step_;
   long interval_;
   FollowingWork work_;

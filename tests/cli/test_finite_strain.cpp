@@ -118,6 +118,91 @@ TEST_CASE("a run of finite strain that grows ends with status 3 and its cause, i
   CHECK(std::filesystem::exists(output / "summary.json"));
 }
 
+TEST_CASE("the spectrum of a deformed patch is that of the waves it admits, which bisection finds", "[fast]") {
+  const Arguments patch{"--deformation-gradient", "1.2,0.1,0,0.95", "--patch", "6,5"};
+  for (const std::string scheme : {"tl-corotated", "tl-pk1"}) {
+    const Json spectrum = answer("spectrum", scheme, patch);
+    CHECK(number(spectrum["critical_time_step"]) ==
+          Approx(number(answer("bisect", scheme, patch)["theory"])).epsilon(1e-10));
+    CHECK(spectrum["verdict"] == "conditionally-stable");
+    CHECK(spectrum["whole_spectrum"] == true);
+    CHECK(spectrum["bracket"].is_null());
+    CHECK(spectrum["growth_rate"] == 0.0);
+    CHECK(number(spectrum["omega_squared_max"][0]) == Approx(std::pow(number(spectrum["omega_max"]), 2)));
+    CHECK(spectrum["omega_squared_max"][1] == 0.0);
+    CHECK(number(spectrum["bulk_theory"]) ==
+          number(answer("dt", scheme, {"--deformation-gradient", patch[1]})["critical_time_step"]));
+  }
+}
+
+TEST_CASE("a patch beyond the loss of ellipticity has no critical step, its vibrations have, and the text says so",
+          "[fast]") {
+  const Arguments lost{"--deformation-gradient", "0.46,0,0,1", "--patch", "12,12"};
+  const Json spectrum = answer("spectrum", "tl-corotated", lost);
+  CHECK(spectrum["verdict"] == "never-stable");
+  CHECK(spectrum["critical_time_step"].is_null());
+  CHECK(number(spectrum["critical_time_step_of_largest"]) ==
+        Approx(2.0 / std::sqrt(number(spectrum["omega_squared_max"][0]))));
+  CHECK(number(spectrum["growth_rate"]) == Approx(std::sqrt(-number(spectrum["omega_squared_min"][0]))));
+  CHECK(spectrum["omega_squared_of_growth"] == spectrum["omega_squared_min"]);
+  // Of the patch's waves; the fastest of the lattice is between them.
+  CHECK(number(spectrum["growth_rate"]) <
+        number(answer("dt", "tl-corotated", {"--deformation-gradient", "0.46,0,0,1"})["growth_rate"]));
+  Arguments text = deformed("spectrum", "tl-corotated", lost);
+  CHECK_THAT(run(text).out,
+             Contains("never stable: a mode grows at every time step") && Contains("limit of vibrations"));
+}
+
+TEST_CASE("a state of a run has its spectrum: what the run says at its end, modes where the particles are", "[fast]") {
+  const ScratchFolder folder;
+  const auto scene = (folder.path() / "beam.toml").string(), out = (folder.path() / "out").string(),
+             modes = (folder.path() / "modes").string(), states = out + "/states.h5";
+  io::write_file(scene, beam);
+  const Json end =
+      run({"run", "--scene", scene, "--duration", "100", "--snapshots", "4", "--output", out, "--format", "json"})
+          .json();
+  const auto about = [&](const Arguments& more) {
+    Arguments arguments{"spectrum", "--scene", scene, "--state", states};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const Json last = result_of(about({"--lowest-modes", "5", "--output", modes, "--format", "json"})).json();
+  CHECK(last["state"]["snapshot"] == 4);
+  CHECK(number(last["state"]["time"]) == Approx(100.0).epsilon(0.05));
+  CHECK(number(last["critical_time_step_of_largest"]) ==
+        Approx(number(end["critical_time_step_at_end"])).epsilon(1e-6));
+  CHECK(last["omega_squared"].size() == 5);
+  CHECK(last["omega_squared"][0] == last["omega_squared_min"]);
+  CHECK(number(last["frequencies"][1]) ==
+        Approx(std::sqrt(number(last["omega_squared"][1][0])) / (2.0 * M_PI)).epsilon(1e-12));
+  for (const char* file :
+       {"critical_mode.h5", "critical_mode.svg", "lowest_modes.h5", "lowest_modes.svg", "summary.json"})
+    CHECK(std::filesystem::exists(modes + "/" + file));
+  const Json first = result_of(about({"--snapshot", "0", "--format", "json"})).json();
+  CHECK(number(first["critical_time_step"]) ==
+        Approx(number(run({"spectrum", "--scene", scene, "--format", "json"}).json()["critical_time_step"]))
+            .epsilon(1e-10));
+  CHECK_THAT(result_of(about({"--snapshot", "2"})).out, Contains("about its snapshot 2 at time"));
+  CHECK(complaint_about(about({"--snapshot", "9"})) == states + ": has no state 9, only 0 to 4");
+  CHECK_THAT(complaint_about({"spectrum", "--scene", scene, "--state", scene}), Contains("is no HDF5 file"));
+  CHECK_THAT(complaint_about(about({"--spacing", "0.9"})), StartsWith(states + ": "));
+  CHECK_THAT(complaint_about(about({"--scheme", "tl-linear"})), StartsWith("state: the spectrum depends on it with"));
+  CHECK_THAT(complaint_about(about({"--upper-bound", "norm-bound"})), StartsWith("upper_bound: is of a body at rest"));
+  CHECK_THAT(complaint_about({"spectrum", "--scene", scene, "--snapshot", "1"}),
+             StartsWith("snapshot: is one of a state"));
+}
+
+TEST_CASE("what the ends of a large spectrum leave open is told", "[fast]") {
+  const Arguments large{"--deformation-gradient", "1.1,0,0,1", "--patch", "24,24"};
+  const Json patch = answer("spectrum", "tl-corotated", large);
+  CHECK(patch["whole_spectrum"] == false);
+  CHECK(patch["verdict"] == "conditionally-stable");  // of R·S about a uniform state all squares are real
+  CHECK(number(patch["smallest_detectable_growth_rate"]) > 0.0);
+  Arguments modes = deformed("spectrum", "tl-corotated", large);
+  modes.insert(modes.end(), {"--lowest-modes", "3"});
+  CHECK(complaint_about(modes) == "lowest_modes: about a deformed state of a body of at most 1000 unknowns, not 1152");
+}
+
 TEST_CASE("what large deformation cannot do is refused by name", "[fast]") {
   CHECK_THAT(complaint_about(deformed("dt", "tl-corotated", {"--elastic-law", "neo-hookean"})),
              StartsWith("elastic_law: neo-hookean: is for the scheme tl-pk1"));

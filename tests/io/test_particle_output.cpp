@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "io/full_disk.hpp"
+#include "io/particle_input.hpp"
 #include "io/scratch_folder.hpp"
 
 using namespace sphstab;
@@ -183,6 +184,48 @@ TEST_CASE("particle files appear whole, together, or not at all", "[fast]") {
   CHECK_THROWS_WITH(write_two_states(folder / "missing/run.h5"), Catch::EndsWith("missing: no such folder"));
   write_two_states(folder / "run.h5", Existing::replace);
   CHECK(read_file(folder / "run.h5") == bytes);  // the same contents, the same bytes
+}
+
+TEST_CASE("a state is read back to the last digit, by its number or as the last one", "[fast]") {
+  const ScratchFolder folder;
+  const auto path = folder / "run.h5";
+  const auto body = body_of<3>(2);
+  const std::vector<Vector<3>> first{{0.1, 0.2, 0.3}, {1.0 / 3.0, -2.0, 1e-300}},
+      last{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
+  ParticleFile file(path, body);
+  file.add_state(0.1, {vector_field<3>("displacement", first), scalar_field("von_mises", {1.0, 2.0})});
+  file.add_state(0.7, {vector_field<3>("displacement", last)});
+  file.finish();
+  const auto by_number = read_state<3>(path, body, 0), without = read_state<3>(path, body);
+  CHECK(by_number.number == 0);
+  CHECK(by_number.time == 0.1);
+  CHECK(by_number.displacement == first);
+  CHECK(without.number == 1);
+  CHECK(without.time == 0.7);
+  CHECK(without.displacement == last);
+}
+
+TEST_CASE("states that are missing or of other particles are refused by name", "[fast]") {
+  const ScratchFolder folder;
+  const auto path = folder / "run.h5";
+  const std::string name = path.string();
+  const auto body = body_of<2>(3);
+  CHECK_THROWS_WITH(read_state<2>(path, body), name + ": No such file or directory");
+  write_file(folder / "text.h5", "states");
+  CHECK_THROWS_WITH(read_state<2>(folder / "text.h5", body), (folder / "text.h5").string() + ": is no HDF5 file");
+  ParticleFile(folder / "empty.h5", body).finish();
+  CHECK_THROWS_WITH(read_state<2>(folder / "empty.h5", body),
+                    (folder / "empty.h5").string() + ": holds no states of a run");
+  write_two_states(path);
+  CHECK_THROWS_WITH(read_state<2>(path, body, 2), name + ": has no state 2, only 0 to 1");
+  CHECK_THROWS_WITH(read_state<2>(path, body, 0), name + ": has no data set /states/0/displacement that can be read");
+  CHECK_THROWS_WITH(read_state<2>(path, body_of<2>(4)), name + ": has 3 particles, the body has 4");
+  auto moved = body;
+  moved.position[1][0] += 1e-5;
+  CHECK_THROWS_WITH(read_state<2>(path, moved),
+                    name + ": particle 1 is not where the body has it; it is of another scene");
+  moved.position[1][0] = body.position[1][0] + 1e-9;
+  CHECK(read_state<2>(path, moved).displacement[2] == Vector<2>(5.0, 6.0));
 }
 
 TEST_CASE("a full disk is named, and leaves nothing of a particle file behind", "[fast]") {

@@ -119,8 +119,7 @@ TEST_CASE("rung 6: a cantilever at rest under its load grows from the limit of i
       const double rest = *analysis::deformed_limit(op).critical_time_step;
       const auto equilibrium = study::relax<2>(problem, body, {.time_step = 0.6 * rest, .tolerance = 1e-12});
       REQUIRE(equilibrium.converged);
-      Eigen::VectorXd displacement(op.components());
-      for (int a = 0; a < body.size(); ++a) displacement.segment<2>(2 * a) = equilibrium.displacement[a];
+      const auto displacement = analysis::components_of<2>(equilibrium.displacement);
       CHECK(displacement.lpNorm<Eigen::Infinity>() > 0.15 * body.position.back()[0]);
       op.set_state(displacement);
       const auto theory = analysis::deformed_limit(op, {.tolerance = 1e-10}).critical_time_step;

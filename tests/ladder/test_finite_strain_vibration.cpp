@@ -67,13 +67,11 @@ class Vibration {
   /// The critical steps of the states of this motion, followed with small steps.
   Limits limits() {
     analysis::DeformedBodyOperator<2> op(problem_, body_);
-    Eigen::VectorXd displacement = Eigen::VectorXd::Zero(op.components());
     const double rest = *analysis::deformed_limit(op).critical_time_step;
     double least = rest, largest = rest;
     for (int look = 0; look < 60; ++look) {
       simulation_->advance(state_, 0.2 * rest, 5);
-      for (int a = 0; a < body_.size(); ++a) displacement.segment<2>(2 * a) = state_.displacement[a];
-      op.set_state(displacement);
+      op.set_state(analysis::components_of<2>(state_.displacement));
       const double limit = *analysis::deformed_limit(op).critical_time_step;
       least = std::min(least, limit);
       largest = std::max(largest, limit);
