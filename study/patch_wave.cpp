@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "analysis/amplification.hpp"
@@ -130,6 +131,7 @@ double noise_growth(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
     }
   };
   const double largest = measured_share * solver->largest_amplitude();
+  assert(std::isfinite(largest));
   Eigen::VectorXd fastest = solver->noise_departure(noise_seed);
   run(fastest, largest, steps);
   const int measured = steps_of_growth(growth_per_step);

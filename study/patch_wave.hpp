@@ -56,10 +56,10 @@ template <int Dim>
 double seeded_growth(const PatchWave<Dim>& wave, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
                      double time_step);
 
-/// The growth per step of the fastest wave that noise holds. The run is scaled back to a small
-/// amplitude again and again for so many steps, until slower waves are left far behind; then the growth of its
+/// The growth per step of the fastest wave that noise holds, of a scheme that is not linear. The run is scaled back to
+/// a small amplitude again and again for so many steps, until slower waves are left far behind; then the growth of its
 /// amplitude is measured over two e-foldings from a tenth of the largest one and from half of that, extrapolated to
-/// none. What is left is the rounding of positions. Of schemes that are not linear.
+/// none. What is left is the rounding of positions, or of 1 + strain.
 /// Tested in tests/ladder/test_updated_growth.cpp and test_finite_strain_growth.cpp.
 template <int Dim>
 double noise_growth(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, unsigned noise_seed, double time_step,
