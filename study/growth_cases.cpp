@@ -28,14 +28,6 @@ constexpr double gray_epsilon = 0.3, gray_xsph = 0.5;
 constexpr double seen_e_foldings = 40.0, noise_e_foldings = 200.0;
 constexpr long steps_of_the_stable = 2000;
 
-template <int Dim>
-struct Subject {
-  std::string name;
-  Problem<Dim> problem;
-  LatticeIndex<Dim> cells;
-  std::optional<Vector<Dim>> wave_vector = {};  ///< the one that is meant; the fastest if absent
-};
-
 /// A bar stretched along x by 5 %, its sides held, and the stress of that.
 Problem<2> stretched_square() {
   constexpr double strain = 0.05;
@@ -55,40 +47,12 @@ std::pair<double, double> mean_and_error(const std::vector<double>& values) {
   return {mean, std::sqrt(square / (count * (count - 1.0)))};
 }
 
-template <int Dim>
-GrowthCase run(const Subject<Dim>& subject) {
-  const auto& [name, problem, cells, wave_vector] = subject;
-  const double time_step = courant_number * problem.kernel.smoothing_length();
-  const auto wave =
-      wave_vector ? fastest_wave<Dim>(problem, *wave_vector, time_step) : fastest_wave<Dim>(problem, cells, time_step);
-  const double theory = wave.growth_per_step();
-  GrowthCase result{.name = name,
-                    .integrator = problem.integrator,
-                    .time_step = time_step,
-                    .theory = theory,
-                    .seeded = seeded_growth<Dim>(wave, problem, cells, time_step),
-                    .has_noise = !wave_vector,
-                    .noise_mean = 0.0,
-                    .noise_error = 0.0,
-                    .growing = 0};
-  if (wave_vector) return result;
-  std::vector<double> growths;
-  for (unsigned noise_seed = 1; noise_seed <= noise_runs; ++noise_seed) {
-    const long watched = result.is_stable() ? steps_of_the_stable : std::lround(seen_e_foldings / theory);
-    const auto fit = UpdatedGrowthRun<Dim>(problem, cells, noise_seed)(time_step, watched);
-    result.growing += fit.trend == solver::Trend::growing ? 1 : 0;
-    if (!result.is_stable())
-      growths.push_back(
-          noise_growth<Dim>(problem, cells, noise_seed, time_step, std::lround(noise_e_foldings / theory)));
-  }
-  if (!result.is_stable()) std::tie(result.noise_mean, result.noise_error) = mean_and_error(growths);
-  return result;
-}
-
+/// At Gray's step.
 template <int Dim>
 std::function<GrowthCase()> growth_case(std::string name, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
                                         const std::optional<Vector<Dim>>& wave_vector = {}) {
-  return [subject = Subject<Dim>{std::move(name), problem, cells, wave_vector}] { return run<Dim>(subject); };
+  const double time_step = courant_number * problem.kernel.smoothing_length();
+  return [=] { return measure_growth<Dim>(name, problem, cells, time_step, wave_vector); };
 }
 
 void add_chains(std::vector<std::function<GrowthCase()>>& cases) {
@@ -232,6 +196,35 @@ bool WeakGrowthCase::holds() const {
          std::abs(beyond - next_order) <= 2.0 * z * std::abs(next_order);
 }
 
+template <int Dim>
+GrowthCase measure_growth(std::string name, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
+                          double time_step, const std::optional<Vector<Dim>>& wave_vector) {
+  const auto wave =
+      wave_vector ? fastest_wave<Dim>(problem, *wave_vector, time_step) : fastest_wave<Dim>(problem, cells, time_step);
+  const double theory = wave.growth_per_step();
+  GrowthCase result{.name = std::move(name),
+                    .integrator = problem.integrator,
+                    .time_step = time_step,
+                    .theory = theory,
+                    .seeded = seeded_growth<Dim>(wave, problem, cells, time_step),
+                    .has_noise = !wave_vector,
+                    .noise_mean = 0.0,
+                    .noise_error = 0.0,
+                    .growing = 0};
+  if (wave_vector) return result;
+  std::vector<double> growths;
+  for (unsigned noise_seed = 1; noise_seed <= noise_runs; ++noise_seed) {
+    const long watched = result.is_stable() ? steps_of_the_stable : std::lround(seen_e_foldings / theory);
+    const auto fit = PerturbationRun(perturbed_solver(problem, cells), noise_seed)(time_step, watched);
+    result.growing += fit.trend == solver::Trend::growing ? 1 : 0;
+    if (!result.is_stable())
+      growths.push_back(
+          noise_growth<Dim>(problem, cells, noise_seed, time_step, std::lround(noise_e_foldings / theory)));
+  }
+  if (!result.is_stable()) std::tie(result.noise_mean, result.noise_error) = mean_and_error(growths);
+  return result;
+}
+
 std::vector<std::function<GrowthCase()>> growth_cases() {
   std::vector<std::function<GrowthCase()>> cases;
   add_chains(cases);
@@ -294,5 +287,12 @@ std::vector<std::function<SwitchCase()>> switch_cases() {
     cases.push_back([=] { return at_the_switch(fraction); });
   return cases;
 }
+
+template GrowthCase measure_growth(std::string, const Problem<1>&, const LatticeIndex<1>&, double,
+                                   const std::optional<Vector<1>>&);
+template GrowthCase measure_growth(std::string, const Problem<2>&, const LatticeIndex<2>&, double,
+                                   const std::optional<Vector<2>>&);
+template GrowthCase measure_growth(std::string, const Problem<3>&, const LatticeIndex<3>&, double,
+                                   const std::optional<Vector<3>>&);
 
 }  // namespace sphstab::study

@@ -2,19 +2,21 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "study/step_comparison.hpp"
 
-/// What the running scheme of Gray is confronted with theory on: units ρ0 = c0 = Δp = 1, periodic patches. Rungs 5 and
-/// 6 of the ladder check them (tests/ladder/test_updated_growth.cpp), `report growth-runs` shows them.
+/// Growth of the running solver against theory, and what the scheme of Gray is confronted with: units ρ0 = c0 = Δp = 1,
+/// periodic patches. Rungs 5 and 6 of the ladder check it (tests/ladder/test_updated_growth.cpp), `report growth-runs`
+/// shows it.
 namespace sphstab::study {
 
 /// How many runs from noise are averaged.
 inline constexpr int noise_runs = 16;
 /// Of the growth of a run from the theory's wave, per step. What is left after extrapolation is the square of
-/// displacements of 1e-6 Δp, and the rounding of positions, 1e-15, beside them.
+/// displacements of 1e-6 Δp, and the rounding of positions, or of 1 + strain, 1e-15, beside them.
 inline constexpr double seeded_tolerance = 1e-8;
 /// Of the mean over the runs from noise: so many standard errors of it, and growth_tolerance of the growth. Runs end in
 /// one wave and round alike, so that they may agree better among each other than with theory: what rounding of
@@ -39,6 +41,11 @@ struct GrowthCase {
   /// Within the tolerances above; where theory says stable, no run may grow.
   bool holds() const;
 };
+
+/// The growth of a base state of any nonlinear scheme, of its fastest wave or the one that is meant.
+template <int Dim>
+GrowthCase measure_growth(std::string name, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
+                          double time_step, const std::optional<Vector<Dim>>& wave_vector = {});
 
 std::vector<std::function<GrowthCase()>> growth_cases();
 

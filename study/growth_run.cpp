@@ -42,7 +42,7 @@ bool is_linear(const Scheme& scheme) {
   return !is_finite_strain(scheme.formulation) && scheme.momentum_density == MomentumDensity::frozen;
 }
 
-/// A total-Lagrangian solver. A departure is all displacements, then all velocities.
+/// A total-Lagrangian solver with the loads of its body.
 template <int Dim>
 class PerturbedBody : public PerturbedSolver {
  public:
@@ -51,18 +51,23 @@ class PerturbedBody : public PerturbedSolver {
         energy_scale_(energy_of_unit_strain(problem, body)),
         largest_amplitude_(is_linear(problem.scheme) ? std::numeric_limits<double>::infinity()
                                                      : largest_nonlinear_strain),
+        smoothing_length_(problem.kernel.smoothing_length()),
         equilibrium_(equilibrium),
         state_(body.size()) {}
 
+  Eigen::VectorXd noise_departure(unsigned noise_seed) override {
+    return departure(noise<Dim>(state_.particles(), noise_seed));
+  }
+
   /// At rest. Throws InvalidInput (`patch`) without strain energy.
-  Eigen::VectorXd departure(const Field<Dim>& displacement, double smoothing_length) {
+  Eigen::VectorXd departure(const Field<Dim>& displacement) {
     state_ = State<Dim>(state_.particles());
     state_.displacement = displacement;
     simulation_->hold(state_);
     double square = 0.0;
     for (const auto& s : state_.displacement) square += s.squaredNorm() / static_cast<double>(state_.particles());
     const Eigen::VectorXd departure = flat();
-    if (!(amplitude(departure) > smallest_strain * std::sqrt(square) / smoothing_length))
+    if (!(amplitude(departure) > smallest_strain * std::sqrt(square) / smoothing_length_))
       throw InvalidInput(
           "patch: no perturbation of it has a strain energy (zero-energy modes only); take a larger one");
     return departure;
@@ -87,56 +92,61 @@ class PerturbedBody : public PerturbedSolver {
  private:
   Eigen::VectorXd flat() const {
     Eigen::VectorXd numbers(2 * Dim * state_.particles());
-    for (int a = 0; a < state_.particles(); ++a) {
-      numbers.template segment<Dim>(Dim * a) = state_.displacement[a];
-      numbers.template segment<Dim>(Dim * (state_.particles() + a)) = state_.velocity[a];
-    }
+    for (int a = 0; a < state_.particles(); ++a)
+      numbers.template segment<2 * Dim>(2 * Dim * a) << state_.displacement[a], state_.velocity[a];
     return numbers;
   }
 
   void set(const Eigen::VectorXd& numbers) {
     for (int a = 0; a < state_.particles(); ++a) {
-      state_.displacement[a] = numbers.template segment<Dim>(Dim * a);
-      state_.velocity[a] = numbers.template segment<Dim>(Dim * (state_.particles() + a));
+      state_.displacement[a] = numbers.template segment<Dim>(2 * Dim * a);
+      state_.velocity[a] = numbers.template segment<Dim>(2 * Dim * a + Dim);
     }
   }
 
   std::unique_ptr<solver::TotalLagrangian<Dim>> simulation_;
   double energy_scale_;  ///< of a strain of 1
   double largest_amplitude_;
+  double smoothing_length_;
   Field<Dim> equilibrium_;
   State<Dim> state_;
 };
 
 template <int Dim>
-PerturbationRun perturbation_run(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& equilibrium,
-                                 const Field<Dim>& displacement) {
-  const auto solver = std::make_shared<PerturbedBody<Dim>>(problem, body, equilibrium);
-  return {solver, solver->departure(displacement, problem.kernel.smoothing_length())};
+std::shared_ptr<PerturbedBody<Dim>> unloaded(const Problem<Dim>& problem, const Body<Dim>& body) {
+  return std::make_shared<PerturbedBody<Dim>>(problem, without_loads(body), State<Dim>(body.size()).displacement);
+}
+
+template <int Dim>
+PerturbationRun run_from(const Field<Dim>& displacement, const std::shared_ptr<PerturbedBody<Dim>>& body) {
+  return {body, body->departure(displacement)};
 }
 
 }  // namespace
 
 template <int Dim>
+std::shared_ptr<PerturbedSolver> perturbed_body(const Problem<Dim>& problem, const Body<Dim>& body) {
+  return unloaded(problem, body);
+}
+
+template <int Dim>
 GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, unsigned noise_seed)
-    : GrowthRun(problem, body, noise<Dim>(body.size(), noise_seed)) {}
+    : PerturbationRun(unloaded(problem, body), noise_seed) {}
 
 template <int Dim>
 GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& displacement)
-    : GrowthRun(problem, without_loads(body), State<Dim>(body.size()).displacement, displacement) {}
+    : PerturbationRun(run_from(displacement, unloaded(problem, body))) {}
 
 template <int Dim>
 GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& equilibrium,
                           unsigned noise_seed)
-    : GrowthRun(problem, body, equilibrium, noise<Dim>(body.size(), noise_seed)) {}
+    : PerturbationRun(std::make_shared<PerturbedBody<Dim>>(problem, body, equilibrium), noise_seed) {}
 
-template <int Dim>
-GrowthRun<Dim>::GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const Field<Dim>& equilibrium,
-                          const Field<Dim>& displacement)
-    : PerturbationRun(perturbation_run(problem, body, equilibrium, displacement)) {}
-
+template std::shared_ptr<PerturbedSolver> perturbed_body(const Problem<1>&, const Body<1>&);
 template class GrowthRun<1>;
+template std::shared_ptr<PerturbedSolver> perturbed_body(const Problem<2>&, const Body<2>&);
 template class GrowthRun<2>;
+template std::shared_ptr<PerturbedSolver> perturbed_body(const Problem<3>&, const Body<3>&);
 template class GrowthRun<3>;
 
 }  // namespace sphstab::study

@@ -7,6 +7,10 @@
 
 namespace sphstab::study {
 
+/// The total-Lagrangian solver of a body without its loads. A departure is s and v of one particle after another.
+template <int Dim>
+std::shared_ptr<PerturbedSolver> perturbed_body(const Problem<Dim>& problem, const Body<Dim>& body);
+
 /// The growth of a body by the total-Lagrangian solver, in the norm of its strain energy: rigid motion and zero-energy
 /// modes, which drift linearly in time, have none. The body is run without its loads, or under them about its
 /// equilibrium, and the perturbation obeys its clamps.
@@ -26,11 +30,6 @@ class GrowthRun : public PerturbationRun {
   /// perturbation, which are strains of 1e-10.
   GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const solver::Field<Dim>& equilibrium,
             unsigned noise_seed);
-
- private:
-  /// Starts at `equilibrium` + `displacement` and keeps the loads of the body.
-  GrowthRun(const Problem<Dim>& problem, const Body<Dim>& body, const solver::Field<Dim>& equilibrium,
-            const solver::Field<Dim>& displacement);
 };
 
 }  // namespace sphstab::study

@@ -134,7 +134,7 @@ void add_course(std::string name, const Problem<2>& problem, std::vector<io::Cur
   constexpr double time_step = 0.2, duration = 60.0, small = 1e-4, largest_shown = 1.0;
   constexpr int stride = 5, samples = 60;
   PerturbedPatch<2> patch(problem, cells);
-  Eigen::VectorXd departure = noise_departure(patch, 1);
+  Eigen::VectorXd departure = patch.noise_departure(1);
   departure *= patch.seed_amplitude(time_step) / patch.amplitude(departure);
   const double rate = fastest_wave<2>(problem, cells, time_step).growth_per_step() / time_step;
   io::Curve course{std::move(name), {}}, slope{"", {}, io::CurveStyle::dashed};

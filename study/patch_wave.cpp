@@ -3,11 +3,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "analysis/amplification.hpp"
 #include "analysis/critical_step.hpp"
 #include "model/body.hpp"
+#include "study/growth_run.hpp"
 #include "study/updated_growth_run.hpp"
 
 namespace sphstab::study {
@@ -53,12 +55,23 @@ std::complex<double> amplitude_of(const PatchWave<Dim>& wave, const Eigen::Vecto
 }  // namespace
 
 template <int Dim>
+std::shared_ptr<PerturbedSolver> perturbed_solver(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells) {
+  if (problem.scheme.formulation == Formulation::updated_lagrangian)
+    return std::make_shared<PerturbedPatch<Dim>>(problem, cells);
+  return perturbed_body(problem, periodic_patch(problem, cells));
+}
+
+template <int Dim>
 PatchWave<Dim> fastest_wave(const Problem<Dim>& problem, const Vector<Dim>& wave_vector, double time_step) {
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> modes(
       analysis::amplification_matrix(problem, wave_vector, time_step));
   Eigen::Index fastest = 0;
   modes.eigenvalues().cwiseAbs().maxCoeff(&fastest);
-  return {wave_vector, modes.eigenvectors().col(fastest), modes.eigenvalues()[fastest]};
+  Eigen::VectorXcd shape = modes.eigenvectors().col(fastest);
+  // Of tl-linear theory names v first.
+  if (problem.scheme.formulation == Formulation::total_lagrangian_linear)
+    std::rotate(shape.begin(), shape.begin() + Dim, shape.end());
+  return {wave_vector, shape, modes.eigenvalues()[fastest]};
 }
 
 template <int Dim>
@@ -85,66 +98,75 @@ Eigen::VectorXd departure_of(const PatchWave<Dim>& wave, const Problem<Dim>& pro
 
 template <int Dim>
 double seeded_growth(const PatchWave<Dim>& wave, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
-                     double time_step) {
+                     double time_step, double amplitude) {
   const auto factors = phases(wave, periodic_patch(problem, cells));
   const int steps = steps_of_growth(wave.growth_per_step());
-  PerturbedPatch<Dim> patch(problem, cells);
-  const Eigen::VectorXd start =
-      departure_of(wave, problem, cells) * problem.lattice.spacing() / wave.shape.template head<Dim>().norm();
-  const auto growth_at = [&](double amplitude) {
-    Eigen::VectorXd departure = amplitude * start;
-    const auto before = amplitude_of(wave, factors, departure);
-    patch.advance(departure, time_step, steps);
-    return std::log(std::abs(amplitude_of(wave, factors, departure) / before)) / steps;
-  };
-  return extrapolated(growth_at, displacement);
+  Eigen::VectorXd departure = amplitude * (departure_of(wave, problem, cells) * problem.lattice.spacing() /
+                                           wave.shape.template head<Dim>().norm());
+  const auto before = amplitude_of(wave, factors, departure);
+  perturbed_solver(problem, cells)->advance(departure, time_step, steps);
+  return std::log(std::abs(amplitude_of(wave, factors, departure) / before)) / steps;
+}
+
+template <int Dim>
+double seeded_growth(const PatchWave<Dim>& wave, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
+                     double time_step) {
+  return extrapolated([&](double amplitude) { return seeded_growth<Dim>(wave, problem, cells, time_step, amplitude); },
+                      displacement);
 }
 
 template <int Dim>
 double noise_growth(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, unsigned noise_seed, double time_step,
                     long steps) {
-  PerturbedPatch<Dim> patch(problem, cells);
+  const auto solver = perturbed_solver(problem, cells);
   double growth_per_step = 0.0;
   const auto run = [&](Eigen::VectorXd& departure, double amplitude, long end) {
     const int stride = static_cast<int>(std::max(1L, end / scalings));
-    departure *= amplitude / patch.amplitude(departure);
+    departure *= amplitude / solver->amplitude(departure);
     for (long step = 0; step < end; step += stride) {
-      patch.advance(departure, time_step, stride);
-      const double factor = patch.amplitude(departure) / amplitude;
+      solver->advance(departure, time_step, stride);
+      const double factor = solver->amplitude(departure) / amplitude;
       growth_per_step = std::log(factor) / stride;
       departure /= factor;
     }
   };
-  const double largest = measured_share * patch.largest_amplitude();
-  Eigen::VectorXd fastest = noise_departure(patch, noise_seed);
+  const double largest = measured_share * solver->largest_amplitude();
+  assert(std::isfinite(largest));
+  Eigen::VectorXd fastest = solver->noise_departure(noise_seed);
   run(fastest, largest, steps);
   const int measured = steps_of_growth(growth_per_step);
   return extrapolated(
       [&](double amplitude) {
         Eigen::VectorXd departure = fastest;
         run(departure, amplitude, settling * measured);  // what its size adds to its shape belongs to the size
-        patch.advance(departure, time_step, measured);
-        return std::log(patch.amplitude(departure) / amplitude) / measured;
+        solver->advance(departure, time_step, measured);
+        return std::log(solver->amplitude(departure) / amplitude) / measured;
       },
       largest);
 }
 
+template std::shared_ptr<PerturbedSolver> perturbed_solver(const Problem<1>&, const LatticeIndex<1>&);
 template PatchRadius<1> largest_radius(const Problem<1>&, const LatticeIndex<1>&, double);
 template PatchWave<1> fastest_wave(const Problem<1>&, const Vector<1>&, double);
 template PatchWave<1> fastest_wave(const Problem<1>&, const LatticeIndex<1>&, double);
 template Eigen::VectorXd departure_of(const PatchWave<1>&, const Problem<1>&, const LatticeIndex<1>&);
+template double seeded_growth(const PatchWave<1>&, const Problem<1>&, const LatticeIndex<1>&, double, double);
 template double seeded_growth(const PatchWave<1>&, const Problem<1>&, const LatticeIndex<1>&, double);
 template double noise_growth(const Problem<1>&, const LatticeIndex<1>&, unsigned, double, long);
+template std::shared_ptr<PerturbedSolver> perturbed_solver(const Problem<2>&, const LatticeIndex<2>&);
 template PatchRadius<2> largest_radius(const Problem<2>&, const LatticeIndex<2>&, double);
 template PatchWave<2> fastest_wave(const Problem<2>&, const Vector<2>&, double);
 template PatchWave<2> fastest_wave(const Problem<2>&, const LatticeIndex<2>&, double);
 template Eigen::VectorXd departure_of(const PatchWave<2>&, const Problem<2>&, const LatticeIndex<2>&);
+template double seeded_growth(const PatchWave<2>&, const Problem<2>&, const LatticeIndex<2>&, double, double);
 template double seeded_growth(const PatchWave<2>&, const Problem<2>&, const LatticeIndex<2>&, double);
 template double noise_growth(const Problem<2>&, const LatticeIndex<2>&, unsigned, double, long);
+template std::shared_ptr<PerturbedSolver> perturbed_solver(const Problem<3>&, const LatticeIndex<3>&);
 template PatchRadius<3> largest_radius(const Problem<3>&, const LatticeIndex<3>&, double);
 template PatchWave<3> fastest_wave(const Problem<3>&, const Vector<3>&, double);
 template PatchWave<3> fastest_wave(const Problem<3>&, const LatticeIndex<3>&, double);
 template Eigen::VectorXd departure_of(const PatchWave<3>&, const Problem<3>&, const LatticeIndex<3>&);
+template double seeded_growth(const PatchWave<3>&, const Problem<3>&, const LatticeIndex<3>&, double, double);
 template double seeded_growth(const PatchWave<3>&, const Problem<3>&, const LatticeIndex<3>&, double);
 template double noise_growth(const Problem<3>&, const LatticeIndex<3>&, unsigned, double, long);
 

@@ -6,14 +6,19 @@
 #include <complex>
 
 #include "model/problem.hpp"
+#include "study/perturbation_run.hpp"
 
 namespace sphstab::study {
 
-/// A wave of `ul` that a periodic patch admits, by theory: an eigenvector of E(k) at one step.
+/// The running solver of a periodic patch about its base state: that of `ul`, or a total-Lagrangian one.
+template <int Dim>
+std::shared_ptr<PerturbedSolver> perturbed_solver(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
+
+/// A wave that a periodic patch admits, by theory: an eigenvector of E(k) at one step.
 template <int Dim>
 struct PatchWave {
   Vector<Dim> wave_vector;
-  Eigen::VectorXcd shape;  ///< r, v, ρ, S, …: the order of a flat state; of norm 1
+  Eigen::VectorXcd shape;  ///< displacements, v and what else a particle of the solver has, in its order; of norm 1
   std::complex<double> eigenvalue;
 
   /// ln |λ|.
@@ -40,17 +45,22 @@ template <int Dim>
 Eigen::VectorXd departure_of(const PatchWave<Dim>& wave, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells);
 
 /// The growth per step of the running solver that starts from this wave: ln of the ratio of its Bloch amplitudes
-/// (projected on the shape) over two e-foldings, but 10 to 20 000 steps, per step. At displacements of 1e-6 Δp and of
-/// half that, extrapolated to none: their error is of first order where neighbours sit on a kink, of second elsewhere.
-/// Tested in tests/ladder/test_updated_growth.cpp.
+/// (projected on the shape) over two e-foldings, but 10 to 20 000 steps, per step. At displacements of `amplitude` Δp;
+/// or at 1e-6 Δp and half that, extrapolated to none: their error is of first order where neighbours sit on a kink of
+/// W'' and where three cells repeat the wave, which by the square of its strains drives itself; of second elsewhere.
+/// Tested in tests/ladder/test_updated_growth.cpp and test_finite_strain_growth.cpp.
+template <int Dim>
+double seeded_growth(const PatchWave<Dim>& wave, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
+                     double time_step, double amplitude);
 template <int Dim>
 double seeded_growth(const PatchWave<Dim>& wave, const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
                      double time_step);
 
-/// The growth per step of the fastest wave that noise in the velocities holds. The run is scaled back to a small
-/// amplitude again and again for so many steps, until slower waves are left far behind; then the growth of its
+/// The growth per step of the fastest wave that noise holds, of a scheme that is not linear. The run is scaled back to
+/// a small amplitude again and again for so many steps, until slower waves are left far behind; then the growth of its
 /// amplitude is measured over two e-foldings from a tenth of the largest one and from half of that, extrapolated to
-/// none. What is left is the rounding of positions. Tested in tests/ladder/test_updated_growth.cpp.
+/// none. What is left is the rounding of positions, or of 1 + strain.
+/// Tested in tests/ladder/test_updated_growth.cpp and test_finite_strain_growth.cpp.
 template <int Dim>
 double noise_growth(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, unsigned noise_seed, double time_step,
                     long steps);

@@ -39,6 +39,9 @@ GrowthFit explosion(const std::vector<double>& log_amplitude, int stride) {
 PerturbationRun::PerturbationRun(std::shared_ptr<PerturbedSolver> solver, const Eigen::VectorXd& seed)
     : solver_(std::move(solver)), seed_(seed / solver_->amplitude(seed)) {}
 
+PerturbationRun::PerturbationRun(const std::shared_ptr<PerturbedSolver>& solver, unsigned noise_seed)
+    : PerturbationRun(solver, solver->noise_departure(noise_seed)) {}
+
 PerturbationRun::Course PerturbationRun::start(double time_step) const {
   Eigen::VectorXd departure = seed_;
   if (fastest_mode_) departure = *fastest_mode_ + noise_beside_mode * seed_;

@@ -16,6 +16,10 @@ class PerturbedSolver {
  public:
   virtual ~PerturbedSolver() = default;
 
+  /// What noise perturbs; the same `noise_seed` gives the same on every machine. Of no particular amplitude, but not 0:
+  /// throws InvalidInput (`patch`) where nothing that noise perturbs has one.
+  virtual Eigen::VectorXd noise_departure(unsigned noise_seed) = 0;
+
   /// Goes so many steps. Numbers that are not finite may remain.
   virtual void advance(Eigen::VectorXd& departure, double time_step, int steps) = 0;
 
@@ -40,6 +44,8 @@ class PerturbationRun {
  public:
   /// The seed may have any amplitude but 0.
   PerturbationRun(std::shared_ptr<PerturbedSolver> solver, const Eigen::VectorXd& seed);
+  /// From noise.
+  PerturbationRun(const std::shared_ptr<PerturbedSolver>& solver, unsigned noise_seed);
 
   /// Runs `horizon` steps, up to four times as many while the trend is undecided, fewer once the growth is plain. Its
   /// signature is a GrowthProbe (study/bisection.hpp).

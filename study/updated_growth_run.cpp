@@ -18,13 +18,6 @@ constexpr double largest_velocity = 1e-6;  ///< in c_p
 constexpr double largest_velocity_over_stress = 0.02;
 constexpr double seed_over_largest = 1e-3;
 
-template <int Dim>
-PerturbationRun noisy_run(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, unsigned noise_seed) {
-  if (cells.prod() == 1) throw InvalidInput("patch: one cell moves as a whole; take a larger one");
-  const auto patch = std::make_shared<PerturbedPatch<Dim>>(problem, cells);
-  return {patch, noise_departure(*patch, noise_seed)};
-}
-
 }  // namespace
 
 template <int Dim>
@@ -41,6 +34,18 @@ PerturbedPatch<Dim>::PerturbedPatch(const Problem<Dim>& problem, const LatticeIn
   const Tensor<Dim> stress = problem.deviatoric_stress - problem.pressure * Tensor<Dim>::Identity();
   const double size = stress.norm() / material.bulk_modulus();
   largest_amplitude_ = size > 0.0 ? std::min(largest_velocity, largest_velocity_over_stress * size) : largest_velocity;
+}
+
+template <int Dim>
+Eigen::VectorXd PerturbedPatch<Dim>::noise_departure(unsigned noise_seed) {
+  if (particles() == 1) throw InvalidInput("patch: one cell moves as a whole; take a larger one");
+  const auto velocity = noise<Dim>(particles(), noise_seed);
+  Vector<Dim> mean = Vector<Dim>::Zero();
+  for (const auto& v : velocity) mean += v / particles();
+  const int size = numbers_per_particle();
+  Eigen::VectorXd departure = Eigen::VectorXd::Zero(size * particles());
+  for (int a = 0; a < particles(); ++a) departure.template segment<Dim>(size * a + Dim) = velocity[a] - mean;
+  return departure;
 }
 
 template <int Dim>
@@ -72,20 +77,9 @@ double PerturbedPatch<Dim>::seed_amplitude(double time_step) const {
 }
 
 template <int Dim>
-Eigen::VectorXd noise_departure(const PerturbedPatch<Dim>& patch, unsigned noise_seed) {
-  const auto velocity = noise<Dim>(patch.particles(), noise_seed);
-  Vector<Dim> mean = Vector<Dim>::Zero();
-  for (const auto& v : velocity) mean += v / patch.particles();
-  const int size = patch.numbers_per_particle();
-  Eigen::VectorXd departure = Eigen::VectorXd::Zero(size * patch.particles());
-  for (int a = 0; a < patch.particles(); ++a) departure.template segment<Dim>(size * a + Dim) = velocity[a] - mean;
-  return departure;
-}
-
-template <int Dim>
 UpdatedGrowthRun<Dim>::UpdatedGrowthRun(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
                                         unsigned noise_seed)
-    : PerturbationRun(noisy_run(problem, cells, noise_seed)) {}
+    : PerturbationRun(std::make_shared<PerturbedPatch<Dim>>(problem, cells), noise_seed) {}
 
 template <int Dim>
 UpdatedGrowthRun<Dim>::UpdatedGrowthRun(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells,
@@ -93,13 +87,10 @@ UpdatedGrowthRun<Dim>::UpdatedGrowthRun(const Problem<Dim>& problem, const Latti
     : PerturbationRun(std::make_shared<PerturbedPatch<Dim>>(problem, cells), departure) {}
 
 template class PerturbedPatch<1>;
-template Eigen::VectorXd noise_departure(const PerturbedPatch<1>&, unsigned);
 template class UpdatedGrowthRun<1>;
 template class PerturbedPatch<2>;
-template Eigen::VectorXd noise_departure(const PerturbedPatch<2>&, unsigned);
 template class UpdatedGrowthRun<2>;
 template class PerturbedPatch<3>;
-template Eigen::VectorXd noise_departure(const PerturbedPatch<3>&, unsigned);
 template class UpdatedGrowthRun<3>;
 
 }  // namespace sphstab::study

@@ -24,6 +24,9 @@ class PerturbedPatch : public PerturbedSolver {
   int particles() const { return simulation_.particles(); }
   int numbers_per_particle() const { return static_cast<int>(base_.size()) / particles(); }
 
+  /// In the velocities, without momentum. Throws InvalidInput (`patch`) for a patch of one cell, which has no motion
+  /// but that of all.
+  Eigen::VectorXd noise_departure(unsigned noise_seed) override;
   void advance(Eigen::VectorXd& departure, double time_step, int steps) override;
   double amplitude(const Eigen::VectorXd& departure) override;
   /// Large enough for the rounding of positions, 1e-15, to do no more to growth than 1e-6. Where a step is long, so
@@ -44,10 +47,6 @@ class PerturbedPatch : public PerturbedSolver {
   double of_deviatoric_;  ///< 1/(2μρ̄), 0 where μ = 0
 };
 
-/// Noise in the velocities, without momentum, of no particular amplitude.
-template <int Dim>
-Eigen::VectorXd noise_departure(const PerturbedPatch<Dim>& patch, unsigned noise_seed);
-
 /// The growth of a periodic patch by the updated-Lagrangian solver.
 ///
 /// A run starts from noise in the velocities, without momentum, at the stresses of the base state (displacements would
@@ -55,8 +54,7 @@ Eigen::VectorXd noise_departure(const PerturbedPatch<Dim>& patch, unsigned noise
 template <int Dim>
 class UpdatedGrowthRun : public PerturbationRun {
  public:
-  /// The same `noise_seed` gives the same run on every machine. Throws InvalidInput (`patch`) for a patch of one cell,
-  /// which has no motion but that of all.
+  /// The same `noise_seed` gives the same run on every machine. Throws InvalidInput (`patch`) for a patch of one cell.
   UpdatedGrowthRun(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, unsigned noise_seed);
   UpdatedGrowthRun(const Problem<Dim>& problem, const LatticeIndex<Dim>& cells, const Eigen::VectorXd& departure);
 };

@@ -133,6 +133,12 @@ LatticeIndex<3> running_patch() {
   return {3, 4, 3};
 }
 
+std::string describe(const study::GrowthCase& found) {
+  return fmt::format("{}, {}: theory {:.9f}, seeded {:+.1e}, noise {:+.1e} ± {:.1e}, growing {}", found.name,
+                     name_of(found.integrator), found.theory, found.seeded - found.theory,
+                     found.noise_mean - found.theory, found.noise_error, found.growing);
+}
+
 template Problem<1> basic_problem(LatticeKind, KernelFamily, double);
 template Problem<2> basic_problem(LatticeKind, KernelFamily, double);
 template Problem<3> basic_problem(LatticeKind, KernelFamily, double);

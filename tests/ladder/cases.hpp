@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/problem.hpp"
+#include "study/growth_cases.hpp"
 
 namespace sphstab::ladder {
 
@@ -37,5 +38,8 @@ template <int Dim>
 LatticeIndex<Dim> small_patch();
 template <int Dim>
 LatticeIndex<Dim> running_patch();
+
+/// What was measured and how far it is from theory.
+std::string describe(const study::GrowthCase& found);
 
 }  // namespace sphstab::ladder

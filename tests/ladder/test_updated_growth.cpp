@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/critical_step.hpp"
+#include "ladder/cases.hpp"
 #include "study/growth_cases.hpp"
 #include "study/patch_wave.hpp"
 #include "study/updated_growth_run.hpp"
@@ -32,9 +33,7 @@ TEST_CASE("rung 5: the running scheme of Gray grows as its amplification matrix 
   int stable = 0, across = 0;
   for (const auto& make : growth_cases()) {
     const auto found = make();
-    INFO(found.name << ", " << name_of(found.integrator));
-    INFO("theory " << found.theory << ", seeded " << found.seeded - found.theory << ", noise "
-                   << found.noise_mean - found.theory << " ± " << found.noise_error << ", growing " << found.growing);
+    INFO(ladder::describe(found));
     CHECK(found.holds());
     stable += found.is_stable() ? 1 : 0;
     if (found.has_noise) continue;

@@ -65,7 +65,7 @@ TEST_CASE("the amplitude of a wave at zero stress is its energy: it stays, in sh
   const auto problem = square(0.0, Integrator::verlet);
   PerturbedPatch<2> patch(problem, {6, 6});
   for (const double time_step : {0.02, 0.01}) {
-    const auto log_amplitude = course(patch, noise_departure(patch, 3) * 1e-9, time_step, 400);
+    const auto log_amplitude = course(patch, patch.noise_departure(3) * 1e-9, time_step, 400);
     for (const double amplitude : log_amplitude)
       CHECK(std::abs(amplitude - log_amplitude.front()) < time_step * time_step);
   }
