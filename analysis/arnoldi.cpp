@@ -71,12 +71,12 @@ class KrylovSpace {
 
 /// The eigenvalues of H from the wanted one on, the one of a complex pair with a positive imaginary part first.
 std::vector<int> from_the_wanted(const Eigen::VectorXcd& values, Extreme extreme) {
-  const double sign = extreme == Extreme::rightmost ? 1.0 : -1.0;
+  Eigen::VectorXd rank = extreme == Extreme::outermost ? values.cwiseAbs().eval() : values.real().eval();
+  if (extreme == Extreme::leftmost) rank = -rank;
   std::vector<int> order(values.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int i, int j) {
-    return std::pair(sign * values[i].real(), values[i].imag()) > std::pair(sign * values[j].real(), values[j].imag());
-  });
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return std::pair(rank[i], values[i].imag()) > std::pair(rank[j], values[j].imag()); });
   return order;
 }
 

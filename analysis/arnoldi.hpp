@@ -13,7 +13,8 @@ using LinearOperator = std::function<void(const Eigen::VectorXd& x, Eigen::Vecto
 /// Which eigenvalue is wanted.
 enum class Extreme {
   rightmost,  ///< that of the largest real part
-  leftmost    ///< that of the smallest
+  leftmost,   ///< that of the smallest
+  outermost   ///< that of the largest modulus
 };
 
 struct ArnoldiOptions {

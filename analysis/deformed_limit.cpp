@@ -2,7 +2,6 @@
 #include "analysis/deformed_limit.hpp"
 
 #include <algorithm>
-#include <random>
 
 #include "analysis/arnoldi.hpp"
 #include "analysis/critical_step.hpp"
@@ -28,15 +27,6 @@ class Search {
     const bool is_real = std::abs(found.value.imag()) <= std::max(found.residual, options_.tolerance * found.largest);
     return {is_real ? found.value.real() : found.value, found.residual / found.largest,
             found.vector.real().normalized()};
-  }
-
-  /// A direction of equal probability.
-  Eigen::VectorXd random_start() const {
-    std::mt19937_64 random(options_.seed);
-    std::normal_distribution<double> normal;
-    Eigen::VectorXd start = Eigen::VectorXd::Zero(operator_.components());
-    for (const int i : operator_.unknowns()) start[i] = normal(random);
-    return start.normalized();
   }
 
   long applications() const { return applications_; }
@@ -68,7 +58,7 @@ template <int Dim>
 DeformedLimit deformed_limit(DeformedBodyOperator<Dim>& body_operator, const DeformedLimitOptions& options) {
   if (body_operator.unknowns().empty()) throw InvalidInput("clamp: holds every particle, so that nothing moves");
   Search<Dim> search(body_operator, options);
-  const Eigen::VectorXd random = search.random_start();
+  const Eigen::VectorXd random = body_operator.random_components(options.seed).normalized();
   DeformedLimit limit{};
   limit.largest = search.extreme(
       Extreme::rightmost,

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
+#include <random>
 
 namespace sphstab::analysis {
 namespace {
@@ -65,6 +66,15 @@ Eigen::MatrixXd LinearisedBody<Dim>::places() const {
   Eigen::MatrixXd places(Dim, unknowns_.size());
   for (std::size_t i = 0; i < unknowns_.size(); ++i) places.col(i) = body_.position[unknowns_[i] / Dim];
   return places;
+}
+
+template <int Dim>
+Eigen::VectorXd LinearisedBody<Dim>::random_components(unsigned seed) const {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd components = Eigen::VectorXd::Zero(root_inverse_mass_.size());
+  for (const int i : unknowns_) components[i] = normal(random);
+  return components;
 }
 
 template class LinearisedBody<1>;

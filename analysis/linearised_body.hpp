@@ -30,6 +30,9 @@ class LinearisedBody {
   /// The particle's position of each unknown, a column each.
   Eigen::MatrixXd places() const;
 
+  /// Every unknown from a normal distribution: no direction is preferred.
+  Eigen::VectorXd random_components(unsigned seed) const;
+
   /// V_b ∇_a W_ab of an entry of body().pairs.
   const Vector<Dim>& gradient(int pair) const { return gradient_[pair]; }
 

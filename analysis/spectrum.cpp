@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "analysis/body_operator.hpp"
 #include "analysis/factorisation_bound.hpp"
@@ -88,16 +87,12 @@ class LimitSearch {
   }
 
   LanczosResult find_top(double tolerance) {
-    std::mt19937_64 random(options_.seed);
-    std::normal_distribution<double> normal;  // of every free component: no direction is preferred
-    Eigen::VectorXd start = Eigen::VectorXd::Zero(operator_.components());
-    for (const int i : operator_.unknowns()) start[i] = normal(random);
     LanczosOptions lanczos{.tolerance = tolerance, .progress = options_.progress};
     if (!factorisation_ && options_.bound != BoundKind::norm_bound)
       lanczos.fewest =
           dimension_for_ratio(1.0 + options_.probabilistic_width, options_.failure_probability, unknowns());
-    return largest_eigenvalue([this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { operator_.apply(x, y); }, start,
-                              lanczos);
+    return largest_eigenvalue([this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { operator_.apply(x, y); },
+                              operator_.random_components(options_.seed), lanczos);
   }
 
   UpperBound find_bound(const LanczosResult& top) {

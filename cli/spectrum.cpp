@@ -42,9 +42,8 @@ std::string describe_rest(const Json& answer) {
 std::string verdict_in_words(const Json& answer) {
   const std::string verdict = answer["verdict"];
   if (verdict == "never-stable") return "never stable: a mode grows at every time step";
-  return fmt::format("{}: at short steps no mode {} grows faster than {:.1e} per time",
+  return fmt::format("{}: at short steps nothing was seen to grow, faster than {:.1e} per time",
                      verdict == "undecided" ? "undecided" : "conditionally stable",
-                     verdict == "undecided" ? "at the ends of the spectrum" : "of this body",
                      answer["smallest_detectable_growth_rate"].get<double>());
 }
 
@@ -59,7 +58,8 @@ std::string describe_state(const Json& answer) {
                 number_or(answer["critical_time_step_of_largest"], "none") + ", of the largest omega^2 alone");
   return text + row("omega^2", fmt::format("{} to {} ({}), residual {:.1e} after {} applications of the operator",
                                            square("omega_squared_min"), square("omega_squared_max"),
-                                           answer["whole_spectrum"].get<bool>() ? "all looked at" : "both ends alone",
+                                           answer["whole_spectrum"].get<bool>() ? "all modes looked at"
+                                                                                : "not all modes looked at",
                                            answer["residual"].get<double>(), answer["applications"].get<long>()));
 }
 
