@@ -14,7 +14,7 @@ BodyOperator<Dim>::BodyOperator(const Problem<Dim>& problem, const Body<Dim>& bo
         "density_in_momentum: equation-of-state with a displacement_gradient is for infinite lattices, bodies take "
         "frozen");
   if (is_finite_strain(problem.scheme.formulation) && problem.deformation_gradient != Tensor<Dim>::Identity())
-    throw InvalidInput("deformation_gradient: a free body takes none, it would not be in equilibrium");
+    throw InvalidInput("deformation_gradient: an operator about rest takes none");
   std::vector<LameConstants> lame;
   for (const Material& material : body.materials) lame.push_back(material.lame(problem.plane));
   const auto& pairs = body.pairs;

@@ -10,13 +10,13 @@
 #include "io/toml.hpp"
 
 namespace sphstab::cli {
-namespace {
-
 std::string flag_name(std::string_view key) {
   std::string flag = "--" + std::string(key);
   std::replace(flag.begin(), flag.end(), '_', '-');
   return flag;
 }
+
+namespace {
 
 std::string_view group_title(KeyGroup group) {
   switch (group) {

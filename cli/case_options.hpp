@@ -10,6 +10,9 @@
 
 namespace sphstab::cli {
 
+/// "--smoothing-length" of smoothing_length.
+std::string flag_name(std::string_view key);
+
 /// The flags of a command, made from the key table: one for every key of its groups, and --case.
 class CaseOptions {
  public:

@@ -68,6 +68,7 @@ std::string describe(const Json& answer) {
               fmt::format("k = ({}), {}", numbers(mode["wave_vector"], 6), mode["branch"].get<std::string>()));
   text += row("omega^2", fmt::format("from {:.8g} to {:.8g}", answer["omega_squared_min"].get<double>(),
                                      answer["omega_squared_max"].get<double>()));
+  if (answer.contains("note")) text += row("note", answer["note"].get<std::string>());
   text += ellipticity_row(answer);
   if (answer.contains("stabilising_epsilon")) text += describe_cure(answer);
   if (answer.contains("one_sided")) text += describe_sides(answer["one_sided"]);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 
 #include "cli/command.hpp"
 #include "io/files.hpp"
@@ -54,12 +55,17 @@ Json list_integrators() {
   return rows;
 }
 
-/// Whether a key is for this scheme: the help of one that is for a single scheme begins with its name.
+/// Whether a key is for this scheme: the help of one that is not for all begins with the names of those it is for.
 bool is_read_by(std::string_view scheme, const Key& key) {
   const auto& schemes = find_key("scheme").words;
-  return std::none_of(schemes.begin(), schemes.end(), [&](std::string_view other) {
-    return other != scheme && key.help.starts_with(std::string(other) + ":");
-  });
+  const std::string_view beginning = key.help.substr(0, key.help.find(':'));
+  bool is_for_all = false, is_named = false;
+  for (std::string_view word : split(beginning, ',')) {
+    word.remove_prefix(std::min(word.size(), word.find_first_not_of(' ')));
+    is_for_all |= std::find(schemes.begin(), schemes.end(), word) == schemes.end();
+    is_named |= word == scheme;
+  }
+  return is_for_all || is_named;
 }
 
 /// The schemes and the keys of their materials, terms and base states.
@@ -77,7 +83,8 @@ Json list_schemes() {
   return rows;
 }
 
-/// The comment that a scene file begins with, after its licence, up to the first full stop.
+/// The comment that a scene file begins with, after its licence, up to the end of its first sentence: a full stop that
+/// no number follows, as it does in "Sec. 3.1".
 std::string description_of(const std::filesystem::path& file) {
   std::string description;
   const std::string text = io::read_file(file);
@@ -86,7 +93,9 @@ std::string description_of(const std::filesystem::path& file) {
     if (line.starts_with("# SPDX")) continue;
     description += (description.empty() ? "" : " ") + std::string(line.substr(2));
   }
-  return description.substr(0, description.find(". "));
+  const std::regex end_of_sentence("\\. (?![0-9])");
+  std::smatch end;
+  return std::regex_search(description, end, end_of_sentence) ? end.prefix().str() : description;
 }
 
 Json list_scenes() {

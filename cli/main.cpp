@@ -124,6 +124,7 @@ class Program {
     refuse_rest(app_, "command", command_names());
     for (const Action& action : actions_)
       if (action.app->parsed()) {
+        refuse_other_keys(*action.app);
         refuse_rest(*action.app, "option", option_names(*action.app));
         return action.run();
       }
@@ -202,6 +203,14 @@ class Program {
     for (const CLI::Option* option : app.get_options())
       if (option->nonpositional()) names.push_back("--" + option->get_lnames().front());
     return names;
+  }
+
+  /// Keys of other commands: which of this one is spelled like them says nothing.
+  static void refuse_other_keys(const CLI::App& app) {
+    for (const std::string& given : app.remaining())
+      for (const Key& key : key_table())
+        if (const std::string flag = flag_name(key.name); given.substr(0, given.find('=')) == flag)
+          throw InvalidInput(fmt::format("option: '{}' is not for {}; --help lists its options", flag, app.get_name()));
   }
 
   static void refuse_rest(const CLI::App& app, std::string_view what, const std::vector<std::string>& names) {

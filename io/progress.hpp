@@ -4,12 +4,16 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <thread>
 
 namespace sphstab::io {
 
-/// A progress bar on a terminal for work that takes longer than two seconds; nothing where the descriptor is no
-/// terminal. The bar goes when the object goes.
+/// A progress bar on a terminal for work that takes longer than two seconds, the seconds it has taken as long as the
+/// work tells no fraction; nothing where the descriptor is no terminal. The bar goes when the object goes.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;
@@ -23,12 +27,20 @@ class Progress {
   void show(double fraction);
 
  private:
+  void draw(Clock::time_point now);
+  void draw_seconds_until_done();
   void print(const std::string& text) const;
 
   std::string what_;
   int descriptor_;
+  Clock::time_point start_ = Clock::now();
   Clock::time_point next_;  ///< nothing is drawn earlier
+  std::optional<double> fraction_;
   bool drawn_ = false;
+  bool done_ = false;
+  std::mutex mutex_;  ///< of all that changes
+  std::condition_variable end_;
+  std::thread watcher_;
 };
 
 }  // namespace sphstab::io

@@ -2,6 +2,7 @@
 #include "model/keys.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -63,14 +64,16 @@ const Key table[] = {
     {"displacement_gradient", numbers, scheme, "",
      "tl-linear: displacement gradient of the base state, row by row; default zeros"},
     {"deformation_gradient", numbers, scheme, "",
-     "row by row; tl-corotated, tl-pk1: that of the base state; ul: the lattice is deformed by it at fixed h and "
+     "tl-corotated, tl-pk1, ul: that of the base state, row by row; with ul the lattice is deformed by it at fixed h "
+     "and "
      "W(spacing), a particle filling a deformed cell; default the identity"},
     {"pressure", number, scheme, "0", "ul: pressure of the base state, positive in compression"},
     {"deviatoric_stress", numbers, scheme, "",
      "ul: deviatoric stress of the base state: Sxx; Sxx,Syy,Sxy; Sxx,Syy,Szz,Sxy,Syz,Sxz; default zeros"},
     {"kernel_normalisation", word, scheme, "none", "tl-linear: division of the particle sums by the kernel sum",
      any_number, all_names<KernelNormalisation>},
-    {"damping_rate", number, scheme, "0", "total-Lagrangian schemes: mass-proportional damping, 1/time", not_negative},
+    {"damping_rate", number, scheme, "0", "tl-linear, tl-corotated, tl-pk1: mass-proportional damping, 1/time",
+     not_negative},
     {"density_rate", word, scheme, "masses",
      "ul: sum of masses (Eq. 3.8) or of volumes (Eq. 3.9, for bodies of different densities)", any_number,
      all_names<DensityRate>},
@@ -157,7 +160,8 @@ double parse_number(const Key& key, std::string_view word) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size())
-    throw InvalidInput(fmt::format("{}: '{}' is not a number", key.name, word));
+    throw InvalidInput(fmt::format("{}: '{}' is not a number{}{}", key.name, word, key.words.empty() ? "" : " or ",
+                                   fmt::join(key.words, ", ")));
   return value;
 }
 

@@ -77,6 +77,8 @@ Json growth_answer(const Case& input, const Request& request) {
   const auto problem = make_problem<Dim>(input);
   Json answer = range_of(problem);
   if (is_finite_strain(problem.scheme.formulation)) answer["ellipticity"] = ellipticity_answer(problem);
+  if (problem.scheme.damping) answer["note"] = "of the forces alone, damping_rate left out; dt has the rate with it";
+  if (problem.scheme.viscosity) answer["note"] = "of the forces alone, viscosity left out";
   if (problem.scheme.formulation != Formulation::updated_lagrangian) return answer;
   const auto& artificial = problem.scheme.artificial_stress;
   answer["artificial_stress_epsilon"] = artificial ? artificial->epsilon : 0.0;

@@ -52,7 +52,7 @@ Scene<Dim> named_scene(const Case& input) {
 template <int Dim>
 void require_equilibrium(const Scene<Dim>& scene) {
   if (!scene.periodic_cells && scene.problem.deformation_gradient != Tensor<Dim>::Identity())
-    throw InvalidInput("deformation_gradient: a free body takes none, it would not be in equilibrium");
+    throw InvalidInput("deformation_gradient: a body with free surfaces takes none, it would not be in equilibrium");
   const bool stressed = scene.problem.pressure != 0.0 || !scene.problem.deviatoric_stress.isZero(0.0);
   if (stressed && !scene.periodic_cells)
     throw InvalidInput(

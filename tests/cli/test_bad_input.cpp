@@ -195,3 +195,11 @@ TEST_CASE("a result that cannot be written is no success", "[fast]") {
   CHECK(status("echo '{}' | " + program + "batch > /dev/full 2> /dev/null") == 2);
   CHECK(status(program + "list > /dev/null") == 0);
 }
+
+TEST_CASE("a key of other commands is said to be one, and a number that may be a word names the word", "[fast]") {
+  CHECK(complaint_about(on_case("spectrum", {"--plate", "4,3", "--time-step", "auto"})) ==
+        "option: '--time-step' is not for spectrum; --help lists its options");
+  CHECK(complaint_about(on_case("run", {"--plate", "4,3", "--duration", "1", "--time-step", "automatic"})) ==
+        "time_step: 'automatic' is not a number or auto");
+  CHECK_THAT(complaint_about(on_case("dt", {"--tine-step", "1"})), Contains("did you mean '--time-step'?"));
+}

@@ -264,7 +264,7 @@ TEST_CASE("an interrupted run leaves nothing behind", "[fast]") {
 
 TEST_CASE("what names no body, or two, is refused", "[fast]") {
   const SceneFolder folder(falling_plate);
-  CHECK(complaint_about(on_case("spectrum")) == "scene: missing (or plate)");
+  CHECK(complaint_about(on_case("spectrum")) == "scene: missing (or plate or patch)");
   CHECK(complaint_about(on_scene("spectrum", folder, {"--plate", "3,3"})) == "plate: cannot be given with scene");
   CHECK_THAT(complaint_about(on_scene("bisect", folder, {"--patch", "3,3"})),
              Catch::EndsWith("patch: cannot be given with bodies"));

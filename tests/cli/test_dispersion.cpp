@@ -40,7 +40,7 @@ TEST_CASE("nonsense asked of dispersion is refused in one line", "[fast]") {
   CHECK(complaint({"--overwrite"}) == "overwrite: needs --figure");
   CHECK(complaint({"--path-points", "2"}) == "path_points: 2 is not at least 4, the labelled points of the path");
   CHECK_THAT(complaint({"--path", "G-Q"}), StartsWith("path: "));
-  CHECK_THAT(complaint({"--time-step", "1"}), StartsWith("option: '--time-step' is not known"));
+  CHECK_THAT(complaint({"--time-step", "1"}), StartsWith("option: '--time-step' is not for dispersion"));
   CHECK_THAT(complaint_about(on_case("dt", {"--figure", "x.svg"})), StartsWith("option: '--figure' is not known"));
 }
 

@@ -61,6 +61,15 @@ TEST_CASE("growth tells a loss of ellipticity of the law from growth of the part
   CHECK_THAT(text.out, Contains("never stable") && Contains("LOST, a property of the law and not of the particles"));
 }
 
+TEST_CASE("growth says that it leaves damping out, and dt has it", "[fast]") {
+  const Arguments damped{"--deformation-gradient", "0.4,0,0,1", "--damping-rate", "0.1"};
+  const double free = number(answer("growth", "tl-corotated", damped)["growth_rate"]);
+  // s² + c s = g²
+  const double slowed = number(answer("dt", "tl-corotated", damped)["growth_rate"]);
+  CHECK(slowed * slowed + 0.1 * slowed == Approx(free * free).epsilon(1e-9));
+  CHECK_THAT(run(deformed("growth", "tl-corotated", damped)).out, Contains("damping_rate left out"));
+}
+
 TEST_CASE("dt follows the stretch and not the rotation", "[fast]") {
   const auto step = [](const std::string& gradient) {
     return number(answer("dt", "tl-corotated", {"--deformation-gradient", gradient})["critical_time_step"]);
@@ -80,7 +89,7 @@ TEST_CASE("a free plate of finite strain takes 0.6 of the step of its lattice", 
   CHECK(number(plate["patch_deficit"]) == Approx(-0.42).margin(0.05));
   CHECK(complaint_about(
             deformed("spectrum", "tl-corotated", {"--plate", "8,8", "--deformation-gradient", "1.1,0,0,1"})) ==
-        "deformation_gradient: a free body takes none, it would not be in equilibrium");
+        "deformation_gradient: a body with free surfaces takes none, it would not be in equilibrium");
 }
 
 TEST_CASE("bisection finds the step of a stretched patch", "[fast]") {

@@ -173,6 +173,24 @@ TEST_CASE("list knows every topic, and what it lists is accepted", "[fast]") {
                "--time-step", "0.1", "--integrator", integrator["name"]});
 }
 
+TEST_CASE("list names the keys that each scheme takes", "[fast]") {
+  const auto takes = [schemes = result_of({"list", "schemes", "--format", "json"}).json()["schemes"]](
+                         const std::string& scheme, const std::string& key) {
+    for (const Json& row : schemes)
+      if (row["name"] == scheme) return std::count(row["parameters"].begin(), row["parameters"].end(), key) == 1;
+    return false;
+  };
+  for (const std::string scheme : {"tl-linear", "tl-corotated", "tl-pk1", "ul"}) {
+    const bool is_finite = scheme == "tl-corotated" || scheme == "tl-pk1";
+    CHECK(takes(scheme, "density"));
+    CHECK(takes(scheme, "elastic_law") == is_finite);
+    CHECK(takes(scheme, "deformation_gradient") == (is_finite || scheme == "ul"));
+    CHECK(takes(scheme, "damping_rate") == (scheme != "ul"));
+    CHECK(takes(scheme, "displacement_gradient") == (scheme == "tl-linear"));
+    CHECK(takes(scheme, "xsph") == (scheme == "ul"));
+  }
+}
+
 TEST_CASE("tables of list have a row for each name", "[fast]") {
   const auto lines = lines_of(result_of({"list", "kernels", "--format", "csv"}).out);
   CHECK(lines.size() == 1 + result_of({"list", "kernels", "--format", "json"}).json()["kernels"].size());

@@ -89,3 +89,21 @@ TEST_CASE("no progress bar goes where no terminal is", "[fast]") {
   ::close(pipe[0]);
   ::close(pipe[1]);
 }
+
+TEST_CASE("work that tells no fraction shows its seconds, and a bar as soon as it does", "[fast]") {
+  const Terminal terminal;
+  {
+    Progress progress("growth", terminal.writer(), std::chrono::seconds(0));
+    std::string seconds;
+    for (int wait = 0; wait < 200 && seconds.empty(); ++wait) seconds = terminal.printed();
+    CHECK(seconds.starts_with("\r\033[Kgrowth: "));
+    CHECK(seconds.ends_with(" s"));
+    std::string bar;
+    for (int wait = 0; wait < 200 && bar.empty(); ++wait) {
+      progress.show(1.0);
+      bar = terminal.printed();
+    }
+    CHECK(bar.ends_with("\r\033[Kgrowth [##############################] 100 %"));
+  }
+  CHECK(terminal.printed() == "\r\033[K");
+}

@@ -117,7 +117,7 @@ TEST_CASE("a body of ul with free surfaces takes no stress", "[fast]") {
 }
 
 TEST_CASE("two bodies, or none, are refused", "[fast]") {
-  CHECK_THROWS_WITH(scene_of(updated_case()), "scene: missing (or plate)");
+  CHECK_THROWS_WITH(scene_of(updated_case()), "scene: missing (or plate or patch)");
   CHECK_THROWS_WITH(scene_of(with(with(updated_case(), "plate", six_by_five), "patch", six_by_five)),
                     "plate: cannot be given with patch");
   CHECK_THROWS_WITH(scene_of(with(updated_case(), "patch", std::vector<double>{1e4, 1e4})),
