@@ -26,6 +26,7 @@ constexpr auto makers = std::to_array<ReportMaker>({{"zhang-plate", zhang_plate_
                                                     {"tran-duc", tran_duc_report},
                                                     {"turek-hron", turek_hron_report},
                                                     {"free-edges", free_edge_report},
+                                                    {"conservation", conservation_report},
                                                     {"speed-vs-error", speed_report}});
 
 }  // namespace

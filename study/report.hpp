@@ -81,6 +81,9 @@ Report turek_hron_report(const Progress& progress);
 /// What free, renormalised edges take of the critical step, and which rules of other codes are unsafe there.
 Report free_edge_report(const Progress& progress);
 
+/// What `tl-corotated` and `tl-pk1` keep: momentum, angular momentum, energy, and no force under rotations.
+Report conservation_report(const Progress& progress);
+
 /// CPU seconds against error, of scenes at rest and of ways to a critical step.
 Report speed_report(const Progress& progress);
 

@@ -59,3 +59,7 @@ TEST_CASE("the committed arrays of Gray come out again bit for bit", "[ladder]")
 }
 
 TEST_CASE("the committed growth runs come out again bit for bit", "[ladder]") { check_comes_out_again("growth-runs"); }
+
+TEST_CASE("schemes of finite strain keep momentum, angular momentum and energy as their report claims", "[ladder]") {
+  CHECK(study::find_report("conservation").make(nullptr).failures.empty());
+}
