@@ -310,6 +310,7 @@ TEST_CASE("every scene that is shipped can be read", "[fast]") {
                                                {"tension-patch", 400},
                                                {"transverse-patch", 400},
                                                {"cantilever", 1030},
+                                               {"cantilever-ul", 1030},
                                                {"truss", 2575},
                                                {"turek-hron", 460}};
   int files = 0;
