@@ -17,21 +17,15 @@ GrowthWatch<Dim>::GrowthWatch(const Scene<Dim>& scene, const solver::FiniteStrai
 
 template <int Dim>
 bool GrowthWatch<Dim>::sees_lasting_loss(const Displacement& displacement) {
-  const auto lost = beyond_loss(displacement);
-  const auto& pairs = scene_.body.pairs;
-  for (int a = 0; a < scene_.body.size(); ++a) {
-    const bool has_no_waves =
-        lost[a] && std::all_of(pairs.neighbour.begin() + pairs.first[a], pairs.neighbour.begin() + pairs.first[a + 1],
-                               [&lost](int b) { return lost[b] != 0; });
-    looks_lost_[a] = has_no_waves ? looks_lost_[a] + 1 : 0;
-  }
+  const auto lost = without_waves(displacement);
+  for (int a = 0; a < scene_.body.size(); ++a) looks_lost_[a] = lost[a] ? looks_lost_[a] + 1 : 0;
   return longest_loss() >= looks_of_loss;
 }
 
 template <int Dim>
 bool GrowthWatch<Dim>::is_elliptic(const Displacement& displacement) const {
-  const auto lost = beyond_loss(displacement);
-  return std::find(lost.begin(), lost.end(), 1) == lost.end();
+  const auto lost = without_waves(displacement);
+  return std::find(lost.begin(), lost.end(), true) == lost.end();
 }
 
 template <int Dim>
@@ -43,14 +37,19 @@ std::optional<GrowthCause> GrowthWatch<Dim>::cause(double time_step, bool is_fix
 }
 
 template <int Dim>
-std::vector<char> GrowthWatch<Dim>::beyond_loss(const Displacement& displacement) const {
-  solver::State<Dim> state(scene_.body.size());
+std::vector<bool> GrowthWatch<Dim>::without_waves(const Displacement& displacement) const {
+  const Problem<Dim>& problem = scene_.problem;
+  const Body<Dim>& body = scene_.body;
+  solver::State<Dim> state(body.size());
   state.displacement = displacement;
-  std::vector<char> lost;
-  for (int a = 0; a < scene_.body.size(); ++a)
-    lost.push_back(!analysis::is_elliptic<Dim>(scene_.problem.scheme,
-                                               scene_.body.material_of(a).lame(scene_.problem.plane),
-                                               simulation_.deformation_gradient(state, a)));
+  std::vector<bool> beyond;
+  for (int a = 0; a < body.size(); ++a)
+    beyond.push_back(!analysis::is_elliptic<Dim>(problem.scheme, body.material_of(a).lame(problem.plane),
+                                                 simulation_.deformation_gradient(state, a)));
+  std::vector<bool> lost = beyond;
+  for (int a = 0; a < body.size(); ++a)
+    for (int p = body.pairs.first[a]; p < body.pairs.first[a + 1]; ++p)
+      if (!beyond[body.pairs.neighbour[p]]) lost[a] = false;
   return lost;
 }
 

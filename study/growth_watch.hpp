@@ -37,12 +37,13 @@ class GrowthWatch {
   /// Keeps references to scene and simulation.
   GrowthWatch(const Scene<Dim>& scene, const solver::FiniteStrainSimulation<Dim>& simulation, Displacement start);
 
-  /// Judges every particle: whether one has been without waves now and at the `looks_of_loss` − 1 looks before.
+  /// Judges every particle: whether one, with its neighbours, has been without waves now and at the `looks_of_loss` − 1
+  /// looks before.
   bool sees_lasting_loss(const Displacement& displacement);
   /// Whether there was any such particle at the last look.
   bool sees_loss() const { return longest_loss() > 0; }
 
-  /// Whether no particle has lost ellipticity.
+  /// Whether there is no such particle.
   bool is_elliptic(const Displacement& displacement) const;
 
   /// The run has not grown here yet.
@@ -54,7 +55,7 @@ class GrowthWatch {
   std::optional<GrowthCause> cause(double time_step, bool is_fixed) const;
 
  private:
-  std::vector<char> beyond_loss(const Displacement& displacement) const;
+  std::vector<bool> without_waves(const Displacement& displacement) const;
   int longest_loss() const { return *std::max_element(looks_lost_.begin(), looks_lost_.end()); }
   bool is_above_limit(double time_step, const Displacement& displacement) const;
 

@@ -19,9 +19,11 @@ using solver::Field;
 
 /// Steps between two looks at the whole body, each of which costs half a right-hand side.
 constexpr long look_every = 50;
-/// Numbers beyond it count as not finite: their sixth powers times any moduli and masses are still numbers, so that the
-/// energies of the last state are; forces of finite strain go like the cube of displacements.
-constexpr double largest_number = 1e40;
+/// Numbers beyond it count as not finite: their squares times any modulus or mass are still numbers, so that the
+/// energies of the last state are. Forces of finite strain go like the cubes of displacements.
+constexpr double largest_number(Formulation formulation) {
+  return formulation == Formulation::updated_lagrangian ? 1e100 : 1e40;
+}
 /// A duration that is a whole number of time steps but for rounding takes no step more.
 constexpr double rounding_of_steps = 1e-12;
 
@@ -36,13 +38,14 @@ constexpr double smallest_change = 1e-3;
 constexpr double most_steps = 1e15;
 
 template <class Numbers>
-bool in_range(const Numbers& numbers) {
-  return (numbers.array().abs() <= largest_number).all();
+bool in_range(const Numbers& numbers, double largest) {
+  return (numbers.array().abs() <= largest).all();
 }
 
 template <int Dim>
-std::optional<int> first_not_finite(const Field<Dim>& field) {
-  const auto found = std::find_if(field.begin(), field.end(), [](const Vector<Dim>& y) { return !in_range(y); });
+std::optional<int> first_not_finite(const Field<Dim>& field, double largest) {
+  const auto found =
+      std::find_if(field.begin(), field.end(), [largest](const Vector<Dim>& y) { return !in_range(y, largest); });
   if (found == field.end()) return std::nullopt;
   return static_cast<int>(found - field.begin());
 }
@@ -107,8 +110,9 @@ class LagrangianMotion {
 
   /// The first number of the state that is none, velocities first.
   std::optional<LostNumber> lost_number() const {
-    if (const auto a = first_not_finite<Dim>(state_.velocity)) return LostNumber{*a, "velocity"};
-    if (const auto a = first_not_finite<Dim>(state_.displacement)) return LostNumber{*a, "displacement"};
+    constexpr double largest = largest_number(Formulation::total_lagrangian_pk1);
+    if (const auto a = first_not_finite<Dim>(state_.velocity, largest)) return LostNumber{*a, "velocity"};
+    if (const auto a = first_not_finite<Dim>(state_.displacement, largest)) return LostNumber{*a, "displacement"};
     return std::nullopt;
   }
   /// The number that one step from a state of numbers has lost.
@@ -189,10 +193,11 @@ class UpdatedMotion {
 
  private:
   std::optional<solver::UpdatedQuantity> lost_quantity(int a) const {
-    if (!in_range(state_.velocity[a])) return solver::UpdatedQuantity::velocity;
-    if (!in_range(state_.position[a])) return solver::UpdatedQuantity::position;
-    if (!(state_.density[a] > 0.0 && state_.density[a] <= largest_number)) return solver::UpdatedQuantity::density;
-    if (!in_range(state_.deviatoric_stress[a])) return solver::UpdatedQuantity::deviatoric_stress;
+    constexpr double largest = largest_number(Formulation::updated_lagrangian);
+    if (!in_range(state_.velocity[a], largest)) return solver::UpdatedQuantity::velocity;
+    if (!in_range(state_.position[a], largest)) return solver::UpdatedQuantity::position;
+    if (!(state_.density[a] > 0.0 && state_.density[a] <= largest)) return solver::UpdatedQuantity::density;
+    if (!in_range(state_.deviatoric_stress[a], largest)) return solver::UpdatedQuantity::deviatoric_stress;
     return std::nullopt;
   }
 
@@ -532,8 +537,9 @@ SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim
                     name_of(scene.problem.scheme.formulation)));
   if (!options.followed_fraction) require_positive("time_step", options.time_step);
   require_positive("duration", options.duration);
-  if (const auto particle = first_not_finite<Dim>(scene.velocity))
-    throw InvalidInput(fmt::format("velocity: that of particle {} is beyond {:g}", *particle, largest_number));
+  const double largest = largest_number(scene.problem.scheme.formulation);
+  if (const auto particle = first_not_finite<Dim>(scene.velocity, largest))
+    throw InvalidInput(fmt::format("velocity: that of particle {} is beyond {:g}", *particle, largest));
   if (!options.followed_fraction && !(options.duration / options.time_step <= most_steps))
     throw InvalidInput(
         fmt::format("duration: {} takes more than {} steps of {}", options.duration, most_steps, options.time_step));

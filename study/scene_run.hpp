@@ -64,7 +64,8 @@ struct ProbeHistory {
   std::vector<Tensor<Dim>> stress;
 };
 
-/// The first number of a run that is none, or is beyond 1e40; of `ul` also a density that is not positive.
+/// The first number of a run that is none, or is beyond 1e40, in `ul` 1e100; of `ul` also a density that is not
+/// positive.
 struct NonFiniteValue {
   long step;
   double time;
@@ -110,7 +111,7 @@ struct SceneSummary {
   std::optional<long> list_builds = {};  ///< of `ul`: searches for neighbours
   /// Particles that have no neighbour within the support any more, at the end; none in `tl-linear`.
   std::vector<int> lost_particles = {};
-  bool is_elliptic = true;  ///< of finite strain, at the end: no particle has lost ellipticity
+  bool is_elliptic = true;  ///< of finite strain, at the end (GrowthWatch::is_elliptic)
 };
 
 template <int Dim>
@@ -127,7 +128,7 @@ struct SceneRunResult {
 /// `leapfrog`. A run with non-finite values stops at the exact step of the first one, whatever the interval at which it
 /// is looked at. With `verlet` every sample, snapshot and 50th step costs an evaluation of the forces.
 /// Throws InvalidInput (`time_step`, `duration`) unless both are positive and the steps are at most 1e15, and
-/// (`velocity`) for velocities beyond 1e40. Tested in
+/// (`velocity`) for velocities beyond such numbers. Tested in
 /// tests/study/test_scene_run.cpp.
 template <int Dim>
 SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options);

@@ -155,7 +155,8 @@ TEST_CASE("every particle is judged by its own material", "[fast]") {
   auto lost = strained_patch(1, 0.8, 0.45);
   lost.problem.material = firm;
   CHECK(run_of(lost).growth);
-  // A half is not enough for a wave unless it is wider than the support.
+  // Held everywhere, so that the firm part does not relieve the other; which counts where it is wider than the support.
+  lost.body.clamped.assign(lost.body.size(), Directions<2>::Constant(true));
   lost.body.materials = {firm, yielding};
   for (int a = 0; a < lost.body.size(); ++a) lost.body.material[a] = a % 12 < 9 ? 1 : 0;
   CHECK(run_of(lost).growth);
@@ -182,7 +183,6 @@ TEST_CASE("a body that is torn below its limit by its step has not lost elliptic
   const auto result = run_scene<2>(scene, {.time_step = step_of(scene, 0.866), .duration = 1600.0});
   REQUIRE(result.growth);
   CHECK_FALSE(result.growth->cause);
-  CHECK_FALSE(result.summary.is_elliptic);
 }
 
 TEST_CASE("a followed step is for bodies of finite strain", "[fast]") {
