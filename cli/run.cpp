@@ -44,7 +44,8 @@ std::string loss(const Json& answer) {
 /// Whether the run went wrong, how, and why.
 std::string unstable_row(const Json& answer) {
   if (!answer["unstable"].get<bool>()) return "";
-  const bool has_cause = answer.contains("growth") && answer["growth"]["cause"] != "unknown";
+  const bool has_cause =
+      answer.contains("growth") && (answer["growth"].contains("step") || answer["growth"]["cause"] != "unknown");
   return row("UNSTABLE", loss(answer)) +
          (has_cause ? row("cause", answer["growth"]["cause"].get<std::string>()) : std::string());
 }
