@@ -29,6 +29,15 @@ bool GrowthWatch<Dim>::is_elliptic(const Displacement& displacement) const {
 }
 
 template <int Dim>
+bool GrowthWatch<Dim>::has_grown(double energy, double given, double time_step) const {
+  if (energy <= energy_of_growth * given) return false;
+  const auto limit = critical_step(calm_);
+  if (!limit || time_step >= *limit) return true;
+  const double part = time_step / *limit;
+  return !(energy <= energy_of_growth * given / (1.0 - part * part));
+}
+
+template <int Dim>
 std::optional<GrowthCause> GrowthWatch<Dim>::cause(double time_step, bool is_fixed) const {
   if ((is_fixed && is_above_limit(time_step, start_)) || is_above_limit(time_step, calm_))
     return GrowthCause::time_step;
@@ -54,10 +63,16 @@ std::vector<bool> GrowthWatch<Dim>::without_waves(const Displacement& displaceme
 }
 
 template <int Dim>
-bool GrowthWatch<Dim>::is_above_limit(double time_step, const Displacement& displacement) const {
-  if (!is_elliptic(displacement)) return false;
+std::optional<double> GrowthWatch<Dim>::critical_step(const Displacement& displacement) const {
+  if (!is_elliptic(displacement)) return std::nullopt;
   const auto limit = limit_about<Dim>(scene_.problem, scene_.body, displacement);
-  return limit && limit->critical_time_step && time_step > *limit->critical_time_step;
+  return limit ? limit->critical_time_step : std::nullopt;
+}
+
+template <int Dim>
+bool GrowthWatch<Dim>::is_above_limit(double time_step, const Displacement& displacement) const {
+  const auto limit = critical_step(displacement);
+  return limit && time_step > *limit;
 }
 
 template class GrowthWatch<1>;

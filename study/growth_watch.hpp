@@ -18,7 +18,8 @@ enum class GrowthCause {
 };
 
 /// A run has grown where its kinetic and strain energy are this many times what the start and the largest work of the
-/// loads have given: far more than the integrator's error and, in `tl-corotated`, the strain that is no potential.
+/// loads have given and what steps near the limit make of that: far more than, in `tl-corotated`, the strain that is no
+/// potential.
 inline constexpr double energy_of_growth = 3.0;
 
 /// Particles that have lost ellipticity at so many looks in a row do not come back with the wave that took them there.
@@ -46,6 +47,10 @@ class GrowthWatch {
   /// Whether there is no such particle.
   bool is_elliptic(const Displacement& displacement) const;
 
+  /// Whether the energy is more than `energy_of_growth` times what was given. Below the limit a mode holds now and
+  /// then, without growing, up to 1/(1 − (ωΔt/2)²) times what it was given.
+  bool has_grown(double energy, double given, double time_step) const;
+
   /// The run has not grown here yet.
   void keep(Displacement displacement) { calm_ = std::move(displacement); }
 
@@ -57,6 +62,7 @@ class GrowthWatch {
  private:
   std::vector<bool> without_waves(const Displacement& displacement) const;
   int longest_loss() const { return *std::max_element(looks_lost_.begin(), looks_lost_.end()); }
+  std::optional<double> critical_step(const Displacement& displacement) const;
   bool is_above_limit(double time_step, const Displacement& displacement) const;
 
   const Scene<Dim>& scene_;

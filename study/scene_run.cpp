@@ -372,7 +372,7 @@ class Run {
     if (!looks_closely && step_ < steps_) return;
     largest_work_ = std::max(largest_work_, std::abs(work()));
     const double given = initial_energy_ + largest_work_ + energy_of_rounding(scene_);
-    if (!(kinetic_energy() + motion_.strain_energy() <= energy_of_growth * given)) return name_growth();
+    if (watch_->has_grown(kinetic_energy() + motion_.strain_energy(), given, time_step_)) return name_growth();
     watch_->keep(displacements());
   }
 

@@ -128,7 +128,8 @@ TEST_CASE("growth of less than five hundred steps is seen at the end", "[fast]")
   REQUIRE(grown_at(1.02));
   CHECK(grown_at(1.02)->step == steps);
   CHECK(grown_at(1.02)->cause == GrowthCause::time_step);
-  CHECK_FALSE(grown_at(0.98));
+  // Its energy is four times that of the start: the fastest modes swing.
+  CHECK_FALSE(grown_at(0.995));
 }
 
 TEST_CASE("a compressed patch without waves is watched for ten looks, and the loss of ellipticity is named", "[fast]") {
