@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/ellipticity.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -94,6 +97,66 @@ class SpeedSearch {
   TangentModuli<Dim> moduli_;
 };
 
+/// Cuts of a simplex of squares, each of which halves its longest edge: of one edge 4^−12 is left of what a polynomial
+/// may be below its values at the corners.
+template <int Dim>
+constexpr int cuts = 12 * (Dim - 1);
+
+/// det Q over the squares p of the components of n along the principal axes.
+template <int Dim>
+class WaveDeterminant {
+ public:
+  using Corners = std::array<Vector<Dim>, Dim>;  ///< of a part of the simplex p_1 + … + p_Dim = 1
+
+  explicit WaveDeterminant(const TangentModuli<Dim>& moduli) : moduli_(moduli) {}
+
+  double operator()(const Vector<Dim>& p) const { return acoustic_tensor<Dim>(moduli_, p.cwiseSqrt()).determinant(); }
+
+  bool is_positive(const Corners& corners, int cuts_left) const {
+    for (const auto& corner : corners)
+      if (!((*this)(corner) > 0.0)) return false;
+    if (cuts_left == 0 || least_coefficient(corners) > 0.0) return true;
+    int from = 0, to = 0;
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < i; ++j)
+        if ((corners[i] - corners[j]).norm() > (corners[from] - corners[to]).norm()) from = i, to = j;
+    Corners one = corners, other = corners;
+    one[from] = other[to] = 0.5 * (corners[from] + corners[to]);
+    return is_positive(one, cuts_left - 1) && is_positive(other, cuts_left - 1);
+  }
+
+ private:
+  using Factors = std::array<int, Dim>;  ///< corners, in ascending order
+
+  double least_coefficient(const Corners& corners, Factors factors = {}, int chosen = 0) const {
+    if (chosen == Dim) return coefficient(corners, factors);
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = chosen > 0 ? factors[chosen - 1] : 0; i < Dim; ++i) {
+      factors[chosen] = i;
+      least = std::min(least, least_coefficient(corners, factors, chosen + 1));
+    }
+    return least;
+  }
+
+  /// The symmetric multilinear form of det Q: (1/Dim!) Σ over the subsets of the factors of ± det Q of their sum.
+  double coefficient(const Corners& corners, const Factors& factors) const {
+    double sum = 0.0;
+    for (unsigned subset = 1; subset < 1u << Dim; ++subset) {
+      Vector<Dim> p = Vector<Dim>::Zero();
+      double sign = Dim % 2 == 0 ? 1.0 : -1.0;
+      for (int i = 0; i < Dim; ++i)
+        if (subset >> i & 1u) {
+          p += corners[factors[i]];
+          sign = -sign;
+        }
+      sum += sign * (*this)(p);
+    }
+    return sum / std::tgamma(Dim + 1.0);
+  }
+
+  const TangentModuli<Dim>& moduli_;
+};
+
 }  // namespace
 
 template <int Dim>
@@ -108,8 +171,24 @@ WeakestDirection<Dim> weakest_direction(const Problem<Dim>& problem) {
   return *std::min_element(found.begin(), found.end(), slower);
 }
 
+template <int Dim>
+bool is_elliptic(const Scheme& scheme, const LameConstants& lame, const Tensor<Dim>& F) {
+  if (!(F.determinant() > 0.0) || !F.allFinite()) return false;
+  const Vector<Dim> squares = Tensor<Dim>(F.transpose() * F).template selfadjointView<Eigen::Lower>().eigenvalues();
+  const auto moduli = tangent_moduli<Dim>(scheme, lame, squares.cwiseMax(0.0).cwiseSqrt().asDiagonal());
+  typename WaveDeterminant<Dim>::Corners axes;
+  for (int i = 0; i < Dim; ++i) {
+    axes[i] = Vector<Dim>::Unit(i);
+    if (!(acoustic_tensor<Dim>(moduli, axes[i]).diagonal().array() > 0.0).all()) return false;
+  }
+  return WaveDeterminant<Dim>(moduli).is_positive(axes, cuts<Dim>);
+}
+
 template WeakestDirection<1> weakest_direction(const Problem<1>&);
+template bool is_elliptic(const Scheme&, const LameConstants&, const Tensor<1>&);
 template WeakestDirection<2> weakest_direction(const Problem<2>&);
+template bool is_elliptic(const Scheme&, const LameConstants&, const Tensor<2>&);
 template WeakestDirection<3> weakest_direction(const Problem<3>&);
+template bool is_elliptic(const Scheme&, const LameConstants&, const Tensor<3>&);
 
 }  // namespace sphstab::analysis

@@ -20,8 +20,21 @@ struct WeakestDirection {
 template <int Dim>
 WeakestDirection<Dim> weakest_direction(const Problem<Dim>& problem);
 
+/// Whether a material strained by F has waves in every direction: whether `weakest_direction` would be above 0, to 1e-7
+/// of the moduli, without a search. Along the principal axes of U, F = R U, Q(n) of an isotropic law is a diagonal
+/// matrix and n_i n_k a_ik, which reflections n_i → −n_i leave alike: det Q is a polynomial of degree Dim in the
+/// squares p_i = n_i², which are a segment or a triangle. The eigenvalues being real (acoustic_tensor), they are all
+/// positive if and only if they are along the axes and det Q > 0 everywhere; and a polynomial is between the least and
+/// the largest of its Bernstein coefficients, the closer the smaller the parts into which the triangle is cut. False
+/// where det F is not above 0 or F is no number. Tested in tests/analysis/test_ellipticity.cpp.
+template <int Dim>
+bool is_elliptic(const Scheme& scheme, const LameConstants& lame, const Tensor<Dim>& F);
+
 extern template WeakestDirection<1> weakest_direction(const Problem<1>&);
+extern template bool is_elliptic(const Scheme&, const LameConstants&, const Tensor<1>&);
 extern template WeakestDirection<2> weakest_direction(const Problem<2>&);
+extern template bool is_elliptic(const Scheme&, const LameConstants&, const Tensor<2>&);
 extern template WeakestDirection<3> weakest_direction(const Problem<3>&);
+extern template bool is_elliptic(const Scheme&, const LameConstants&, const Tensor<3>&);
 
 }  // namespace sphstab::analysis

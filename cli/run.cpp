@@ -14,9 +14,10 @@ std::string number(const Json& answer, const char* key, int digits = 8) { return
 std::string time_step_row(const Json& answer) {
   if (answer["critical_time_step"].is_null())
     return row("time step", number(answer, "time_step") + "; there is no critical step");
-  return row("time step", fmt::format("{}, {:.4g} of the critical step {}", number(answer, "time_step"),
-                                      answer["time_step"].get<double>() / answer["critical_time_step"].get<double>(),
-                                      number(answer, "critical_time_step")));
+  const double fraction = answer["time_step"].get<double>() / answer["critical_time_step"].get<double>();
+  return row("time step", fmt::format("{}, {:.4g} of the critical step {}", number(answer, "time_step"), fraction,
+                                      number(answer, "critical_time_step"))) +
+         (fraction > 1.0 ? row("WARNING", "the time step is above the critical one: whatever moves grows") : "");
 }
 
 /// What a run that went wrong lost or gained.
@@ -34,15 +35,17 @@ std::string loss(const Json& answer) {
   if (const long lost = answer["lost_particles"].get<long>(); lost > 0)
     return fmt::format("particles that have lost all their neighbours: {}", lost);
   if (answer.contains("growth") && answer["growth"].contains("step"))
-    return fmt::format("waves grow, or there is more energy than the start and the loads gave, at step {}",
-                       answer["growth"]["step"].get<long>());
+    return fmt::format(
+        "there is more energy than the start and the loads gave, or ellipticity is lost for long, at step {}",
+        answer["growth"]["step"].get<long>());
   return "the energy is more than a thousand times what the start and the loads gave";
 }
 
 /// Whether the run went wrong, how, and why.
 std::string unstable_row(const Json& answer) {
   if (!answer["unstable"].get<bool>()) return "";
-  const bool has_cause = answer.contains("growth") && answer["growth"]["cause"] != "unknown";
+  const bool has_cause =
+      answer.contains("growth") && (answer["growth"].contains("step") || answer["growth"]["cause"] != "unknown");
   return row("UNSTABLE", loss(answer)) +
          (has_cause ? row("cause", answer["growth"]["cause"].get<std::string>()) : std::string());
 }

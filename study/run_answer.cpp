@@ -36,13 +36,16 @@ struct StepTheory {
   /// ln of the spectral radius of the fastest mode, growth per step; absent: nothing is predicted.
   std::function<double(double time_step)> growth_per_step = nullptr;
   bool grows_by_integrator = false;  ///< whose shorter steps grow more slowly in time
+  bool state_grows = false;          ///< that of a total-Lagrangian scheme, at every step
 };
 
 template <int Dim>
 StepTheory lagrangian_theory(const Scene<Dim>& scene) {
   if (!scene.periodic_cells) return {theory_limit<Dim>(scene.problem, scene.body).critical_time_step, "body spectrum"};
-  return {theory_limit<Dim>(scene.problem, PeriodicPatch<Dim>{*scene.periodic_cells}).critical_time_step,
-          "periodic patch"};
+  const auto limit = theory_limit<Dim>(scene.problem, PeriodicPatch<Dim>{*scene.periodic_cells});
+  return {.critical_time_step = limit.critical_time_step,
+          .of = "periodic patch",
+          .state_grows = limit.growth_rate.has_value()};
 }
 
 constexpr std::string_view of_the_lattice = "infinite lattice";
@@ -129,24 +132,30 @@ double step_of_one_e_folding(const StepTheory& theory, double time_step, double 
 /// Whether the step is to follow the limit of the body as it deforms. That of `tl-linear` does not change.
 bool is_followed(const Case& input) { return input.word("time_step") == "auto"; }
 
+/// The critical step that a part is taken of.
+double required_critical_step(const Scheme& scheme, const StepTheory& theory) {
+  if (theory.critical_time_step) return *theory.critical_time_step;
+  if (!theory.state_grows) throw InvalidInput("time_step: missing; there is no critical step to take a part of");
+  throw InvalidInput(
+      fmt::format("time_step: there is no critical step to take a part of: the base state grows at every step{}",
+                  is_finite_strain(scheme.formulation) ? " (loss of ellipticity)" : ""));
+}
+
 /// `time_step`, or `step_fraction` of the critical step; where neither is given and the integrator grows at every step,
 /// no more of it than one e-folding allows.
-double chosen_time_step(const Case& input, const StepTheory& theory, double duration) {
-  if (is_followed(input)) {
-    if (!theory.critical_time_step) throw InvalidInput("time_step: auto needs a critical step to follow");
-    return input.required_number("step_fraction") * *theory.critical_time_step;
-  }
+double chosen_time_step(const Case& input, const Scheme& scheme, const StepTheory& theory, double duration) {
+  if (is_followed(input)) return input.required_number("step_fraction") * required_critical_step(scheme, theory);
   if (const auto time_step = input.number("time_step")) {
     if (input.has("step_fraction")) throw InvalidInput("step_fraction: cannot be given with time_step");
     return *time_step;
   }
-  if (!theory.critical_time_step) throw InvalidInput("time_step: missing; there is no critical step to take a part of");
-  const double of_critical = input.required_number("step_fraction") * *theory.critical_time_step;
+  const double of_critical = input.required_number("step_fraction") * required_critical_step(scheme, theory);
   if (input.has("step_fraction") || !theory.grows_by_integrator) return of_critical;
   return step_of_one_e_folding(theory, of_critical, duration);
 }
 
-/// Linear schemes keep the energy below their critical step, whatever moves in them.
+/// Linear schemes keep the energy below their critical step, whatever moves in them; runs of finite strain are watched
+/// (study/growth_watch.hpp).
 bool has_grown(const SceneSummary& summary, bool can_grow, double energy_of_rounding) {
   return can_grow &&
          summary.kinetic_energy + summary.strain_energy >
@@ -182,11 +191,13 @@ Json to_json(const NonFiniteValue& failure) {
   return values;
 }
 
-/// The largest ω² about the last state, complex where the forces have no potential, and the step it allows.
+/// The largest ω² about the last state, complex where the forces have no potential, and the step it allows, unless
+/// ellipticity is lost.
 template <int Dim>
-void add_limit_at_end(const Scene<Dim>& scene, const Snapshot<Dim>& last, Json& answer) {
-  const auto limit = limit_about<Dim>(scene.problem, scene.body, last.displacement);
-  answer["critical_time_step_at_end"] = limit ? number_or_null(limit->critical_time_step) : Json();
+void add_limit_at_end(const Scene<Dim>& scene, const SceneRunResult<Dim>& result, Json& answer) {
+  const auto limit = limit_about<Dim>(scene.problem, scene.body, result.last.displacement);
+  answer["critical_time_step_at_end"] =
+      limit && result.summary.is_elliptic ? number_or_null(limit->critical_time_step) : Json();
   answer["omega_squared_at_end"] = limit ? complex_pair(limit->largest.omega_squared) : Json();
 }
 
@@ -280,9 +291,9 @@ Json run_answer(const Case& input, const Request& request) {
   require_running_artificial_stress(scene.problem.scheme);
   const double duration = input.required_number("duration");
   const StepTheory theory = step_theory(scene);
-  const double time_step = chosen_time_step(input, theory, duration);
-  RunFiles<Dim> files(scene.body, request.folder);
   const Scheme& scheme = scene.problem.scheme;
+  const double time_step = chosen_time_step(input, scheme, theory, duration);
+  RunFiles<Dim> files(scene.body, request.folder);
   const bool follows = is_followed(input) && is_finite_strain(scheme.formulation);
   if (is_followed(input) && !is_total_lagrangian(scheme.formulation))
     throw InvalidInput("time_step: auto is for total-Lagrangian schemes; there is no spectrum of a body of ul");
@@ -317,11 +328,12 @@ Json run_answer(const Case& input, const Request& request) {
                                       {"stress", rows<Dim>(probe.stress.back())}};
   if (result.failure) answer["failure"] = to_json(*result.failure);
   const bool linear = scheme.formulation == Formulation::total_lagrangian_linear;
-  const bool can_grow = !linear || !theory.critical_time_step || time_step > *theory.critical_time_step;
+  const bool can_grow = linear ? !theory.critical_time_step || time_step > *theory.critical_time_step
+                               : !is_finite_strain(scheme.formulation);
   answer["unstable"] = result.failure || result.growth ||
                        has_grown(result.summary, can_grow, energy_of_rounding(scene)) ||
                        !result.summary.lost_particles.empty();
-  if (is_finite_strain(scheme.formulation)) add_limit_at_end(scene, result.last, answer);
+  if (is_finite_strain(scheme.formulation)) add_limit_at_end(scene, result, answer);
   if (const auto& growth = result.growth)
     answer["growth"] = {{"step", growth->step}, {"time", growth->time}, {"cause", to_json(growth->cause)}};
   else if (answer["unstable"].get<bool>() && !is_total_lagrangian(scheme.formulation))

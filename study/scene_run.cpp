@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 
-#include "analysis/ellipticity.hpp"
 #include "solver/finite_strain_simulation.hpp"
 #include "solver/updated_simulation.hpp"
 #include "study/thread_clock.hpp"
@@ -22,13 +20,15 @@ using solver::Field;
 /// Steps between two looks at the whole body, each of which costs half a right-hand side.
 constexpr long look_every = 50;
 /// Numbers beyond it count as not finite: their squares times any modulus or mass are still numbers, so that the
-/// energies of the last state are.
-constexpr double largest_number = 1e100;
+/// energies of the last state are. Forces of finite strain go like the cubes of displacements.
+constexpr double largest_number(Formulation formulation) {
+  return formulation == Formulation::updated_lagrangian ? 1e100 : 1e40;
+}
 /// A duration that is a whole number of time steps but for rounding takes no step more.
 constexpr double rounding_of_steps = 1e-12;
 
-/// Looks between two of them that compare energies, which cost two right-hand sides.
-constexpr long looks_between_energies = 10;
+/// Looks at a run of finite strain between two that compare its energies and judge its particles.
+constexpr long looks_between_close_ones = 10;
 /// Steps between two looks at the velocities of a run whose limit is followed.
 constexpr long heed_every = 10;
 /// Changes of the followed limit, relative, that do not change the step.
@@ -38,13 +38,14 @@ constexpr double smallest_change = 1e-3;
 constexpr double most_steps = 1e15;
 
 template <class Numbers>
-bool in_range(const Numbers& numbers) {
-  return (numbers.array().abs() <= largest_number).all();
+bool in_range(const Numbers& numbers, double largest) {
+  return (numbers.array().abs() <= largest).all();
 }
 
 template <int Dim>
-std::optional<int> first_not_finite(const Field<Dim>& field) {
-  const auto found = std::find_if(field.begin(), field.end(), [](const Vector<Dim>& y) { return !in_range(y); });
+std::optional<int> first_not_finite(const Field<Dim>& field, double largest) {
+  const auto found =
+      std::find_if(field.begin(), field.end(), [largest](const Vector<Dim>& y) { return !in_range(y, largest); });
   if (found == field.end()) return std::nullopt;
   return static_cast<int>(found - field.begin());
 }
@@ -85,27 +86,11 @@ class LagrangianMotion {
     for (int a = 0; a < particles(); ++a) state_.velocity[a] += time * acceleration[a];
   }
 
-  /// Whether a step is above the critical one of a state.
-  bool is_above_limit(double time_step, const State& state) const {
-    const auto limit = limit_about<Dim>(scene_.problem, scene_.body, state.displacement);
-    return limit && limit->critical_time_step && time_step > *limit->critical_time_step;
-  }
-
-  /// Of finite strain: whether the most compressed particle is turned inside out or has no waves in some direction.
-  bool has_lost_ellipticity() const {
+  /// Of finite strain.
+  std::optional<GrowthWatch<Dim>> growth_watch() const {
     const auto* simulation = dynamic_cast<const solver::FiniteStrainSimulation<Dim>*>(simulation_.get());
-    if (simulation == nullptr) return false;
-    Problem<Dim> strained = scene_.problem;
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int a = 0; a < particles(); ++a) {
-      const Tensor<Dim> F = simulation->deformation_gradient(state_, a);
-      if (!(F.determinant() > 0.0)) return true;
-      const double square = Tensor<Dim>(F.transpose() * F).template selfadjointView<Eigen::Lower>().eigenvalues()[0];
-      if (square >= smallest) continue;
-      smallest = square;
-      strained.deformation_gradient = F;
-    }
-    return analysis::weakest_direction(strained).squared_speed < 0.0;
+    if (simulation == nullptr) return std::nullopt;
+    return GrowthWatch<Dim>(scene_, *simulation, state_.displacement);
   }
 
   const Vector<Dim>& displacement(int a) const { return state_.displacement[a]; }
@@ -125,8 +110,9 @@ class LagrangianMotion {
 
   /// The first number of the state that is none, velocities first.
   std::optional<LostNumber> lost_number() const {
-    if (const auto a = first_not_finite<Dim>(state_.velocity)) return LostNumber{*a, "velocity"};
-    if (const auto a = first_not_finite<Dim>(state_.displacement)) return LostNumber{*a, "displacement"};
+    constexpr double largest = largest_number(Formulation::total_lagrangian_pk1);
+    if (const auto a = first_not_finite<Dim>(state_.velocity, largest)) return LostNumber{*a, "velocity"};
+    if (const auto a = first_not_finite<Dim>(state_.displacement, largest)) return LostNumber{*a, "displacement"};
     return std::nullopt;
   }
   /// The number that one step from a state of numbers has lost.
@@ -168,8 +154,7 @@ class UpdatedMotion {
 
   /// The step of `ul` is not followed, and its growth judged at the end.
   void kick(double) {}
-  bool is_above_limit(double, const State&) const { return false; }
-  bool has_lost_ellipticity() const { return false; }
+  std::optional<GrowthWatch<Dim>> growth_watch() const { return std::nullopt; }
 
   Vector<Dim> displacement(int a) const { return state_.position[a] - start_[a]; }
   const Vector<Dim>& velocity(int a) const { return state_.velocity[a]; }
@@ -208,10 +193,11 @@ class UpdatedMotion {
 
  private:
   std::optional<solver::UpdatedQuantity> lost_quantity(int a) const {
-    if (!in_range(state_.velocity[a])) return solver::UpdatedQuantity::velocity;
-    if (!in_range(state_.position[a])) return solver::UpdatedQuantity::position;
-    if (!(state_.density[a] > 0.0 && state_.density[a] <= largest_number)) return solver::UpdatedQuantity::density;
-    if (!in_range(state_.deviatoric_stress[a])) return solver::UpdatedQuantity::deviatoric_stress;
+    constexpr double largest = largest_number(Formulation::updated_lagrangian);
+    if (!in_range(state_.velocity[a], largest)) return solver::UpdatedQuantity::velocity;
+    if (!in_range(state_.position[a], largest)) return solver::UpdatedQuantity::position;
+    if (!(state_.density[a] > 0.0 && state_.density[a] <= largest)) return solver::UpdatedQuantity::density;
+    if (!in_range(state_.deviatoric_stress[a], largest)) return solver::UpdatedQuantity::deviatoric_stress;
     return std::nullopt;
   }
 
@@ -235,8 +221,6 @@ class Run {
   Run(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options)
       : scene_(scene),
         options_(options),
-        wave_speed_(slowest_wave(scene)),
-        wave_of_loads_(wave_of_loads(scene, wave_speed_)),
         follower_(make_follower(scene, options)),
         time_step_(first_step()),
         steps_(static_cast<long>(std::ceil(options.duration / time_step_ * (1.0 - rounding_of_steps)))),
@@ -267,27 +251,14 @@ class Run {
 
   static std::optional<Follower> make_follower(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options) {
     if (!options.followed_fraction) return std::nullopt;
-    return std::optional<Follower>(std::in_place, scene.problem, scene.body);
+    return std::optional<Follower>(std::in_place, scene);
   }
 
   double first_step() const {
     if (!follower_) return options_.time_step;
     if (!follower_->critical_step())
       throw InvalidInput("time_step: auto needs a body in which some mode has a restoring force");
-    return followed_step(wave_of_loads_);
-  }
-
-  static double slowest_wave(const Scene<Dim>& scene) {
-    double slowest = std::numeric_limits<double>::infinity();
-    for (const auto& material : scene.body.materials)
-      slowest = std::min(slowest, p_wave_speed(scene.problem, material));
-    return slowest;
-  }
-
-  static double wave_of_loads(const Scene<Dim>& scene, double wave_speed) {
-    double largest = 0.0;
-    for (const auto& load : scene.body.load) largest = std::max(largest, load.norm());
-    return largest * scene.problem.lattice.spacing() / wave_speed;
+    return followed_limit() / follower_->room_for_loads();
   }
 
   double time() const { return time_of_change_ + static_cast<double>(step_ - step_of_change_) * time_step_; }
@@ -317,31 +288,29 @@ class Run {
     largest_step_ = std::max(largest_step_, time_step);
   }
 
+  std::vector<Vector<Dim>> displacements() const {
+    std::vector<Vector<Dim>> all;
+    for (int a = 0; a < motion_.particles(); ++a) all.push_back(motion_.displacement(a));
+    return all;
+  }
+
   void follow() {
-    std::vector<Vector<Dim>> displacement;
-    for (int a = 0; a < motion_.particles(); ++a) displacement.push_back(motion_.displacement(a));
-    follower_->update(displacement);
+    follower_->update(displacements());
     step_of_update_ = step_ + follower_->interval();
-    const double time_step = followed_step(fastest());
+    const double time_step = followed_step();
     if (std::abs(time_step / time_step_ - 1.0) > smallest_change) change_step(time_step);
   }
 
-  /// The part of the last limit, less what waves may take of it before the next: one with velocities v strains by v/c,
-  /// twice where it is reflected, and that lowers the limit of the laws by three halves of it. A load f per mass that
-  /// is put on at once sends a wave of f Δp/c.
-  double followed_step(double fastest) const {
-    return *options_.followed_fraction * *follower_->critical_step() / (1.0 + 3.0 * fastest / wave_speed_);
-  }
+  /// The part of the last limit that is asked for.
+  double followed_limit() const { return *options_.followed_fraction * *follower_->critical_step(); }
 
-  double fastest() const {
-    double velocity = wave_of_loads_;
-    for (int a = 0; a < motion_.particles(); ++a) velocity = std::max(velocity, motion_.velocity(a).norm());
-    return velocity;
+  double followed_step() const {
+    return followed_limit() / follower_->room_for_waves(displacements(), motion_.state().velocity);
   }
 
   /// Between updates the step is only lowered.
   void heed_waves() {
-    if (const double time_step = followed_step(fastest()); time_step < time_step_ * (1.0 - smallest_change))
+    if (const double time_step = followed_step(); time_step < time_step_ * (1.0 - smallest_change))
       change_step(time_step);
   }
 
@@ -380,14 +349,14 @@ class Run {
     failure_ = {step_, time(), lost.particle, lost.field, lost.term};
     motion_.go_back_to(last_finite_);
     --step_;
-    if (watches_growth_) name_growth(motion_.has_lost_ellipticity());
+    if (watch_) name_growth();
   }
 
   void observe() {
     if (step_ % look_every == 0 || step_ == steps_) look();
     if ((step_ % sample_stride_ == 0 || step_ == steps_) && !probes_.empty()) sample();
     if (snapshots_left() && step_ >= steps_of_snapshot(next_snapshot_)) take_snapshot();
-    if (watches_growth_ && step_ % (look_every * looks_between_energies) == 0) watch_growth();
+    if (watch_ && (step_ % look_every == 0 || step_ == steps_)) watch_growth();
     if (!follower_ || step_ == 0 || step_ >= steps_) return;
     if (step_ >= step_of_update_)
       follow();
@@ -395,25 +364,21 @@ class Run {
       heed_waves();
   }
 
+  /// Energies cost two right-hand sides, and the judgement of all particles about as much.
   void watch_growth() {
+    const bool looks_closely = step_ % (look_every * looks_between_close_ones) == 0;
+    const bool judges = looks_closely || (step_ % look_every == 0 && watch_->sees_loss());
+    if (judges && watch_->sees_lasting_loss(displacements())) return name_growth();
+    if (!looks_closely && step_ < steps_) return;
     largest_work_ = std::max(largest_work_, std::abs(work()));
     const double given = initial_energy_ + largest_work_ + energy_of_rounding(scene_);
-    const bool lost = motion_.has_lost_ellipticity();
-    if (!lost && kinetic_energy() + motion_.strain_energy() <= energy_of_growth * given) {
-      calm_ = motion_.state();
-      return;
-    }
-    name_growth(lost);
+    if (watch_->has_grown(kinetic_energy() + motion_.strain_energy(), given, time_step_)) return name_growth();
+    watch_->keep(displacements());
   }
 
-  void name_growth(bool ellipticity_is_lost) {
-    growth_ = {step_, time(), std::nullopt};
-    // What grows may have strained the state before already, so that its limit is another one.
-    const bool too_long = follower_ ? *options_.followed_fraction > 1.0 : motion_.is_above_limit(time_step_, start_);
-    if (too_long || motion_.is_above_limit(time_step_, calm_))
-      growth_->cause = GrowthCause::time_step;
-    else if (ellipticity_is_lost)
-      growth_->cause = GrowthCause::loss_of_ellipticity;
+  void name_growth() {
+    const bool is_too_long = options_.followed_fraction.value_or(0.0) > 1.0;
+    growth_ = {step_, time(), is_too_long ? GrowthCause::time_step : watch_->cause(time_step_, !follower_)};
   }
 
   double work() const {
@@ -498,7 +463,8 @@ class Run {
             .momentum_drift = momentum_drift,
             .following = following(),
             .list_builds = list_builds,
-            .lost_particles = motion_.lost_particles()};
+            .lost_particles = motion_.lost_particles(),
+            .is_elliptic = !watch_ || watch_->is_elliptic(displacements())};
   }
 
   std::optional<StepFollowing> following() const {
@@ -528,8 +494,6 @@ class Run {
   const Scene<Dim>& scene_;
   const SceneRunOptions<Dim>& options_;
   double cpu_seconds_at_start_ = thread_seconds();
-  double wave_speed_;     ///< p-waves of the slowest material
-  double wave_of_loads_;  ///< a velocity
   std::optional<Follower> follower_;
   double time_step_;
   double smallest_step_ = time_step_, largest_step_ = time_step_;
@@ -558,10 +522,8 @@ class Run {
   double largest_momentum_drift_ = 0.0;
   double largest_momentum_ = 0.0;
   std::optional<NonFiniteValue> failure_;
-  bool watches_growth_ = is_finite_strain(scene_.problem.scheme.formulation);
+  std::optional<GrowthWatch<Dim>> watch_ = motion_.growth_watch();
   double largest_work_ = 0.0;
-  typename Motion::State start_ = last_finite_;
-  typename Motion::State calm_ = last_finite_;  ///< when growth had not been seen yet
   std::optional<RunGrowth> growth_;
 };
 
@@ -575,8 +537,9 @@ SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim
                     name_of(scene.problem.scheme.formulation)));
   if (!options.followed_fraction) require_positive("time_step", options.time_step);
   require_positive("duration", options.duration);
-  if (const auto particle = first_not_finite<Dim>(scene.velocity))
-    throw InvalidInput(fmt::format("velocity: that of particle {} is beyond {:g}", *particle, largest_number));
+  const double largest = largest_number(scene.problem.scheme.formulation);
+  if (const auto particle = first_not_finite<Dim>(scene.velocity, largest))
+    throw InvalidInput(fmt::format("velocity: that of particle {} is beyond {:g}", *particle, largest));
   if (!options.followed_fraction && !(options.duration / options.time_step <= most_steps))
     throw InvalidInput(
         fmt::format("duration: {} takes more than {} steps of {}", options.duration, most_steps, options.time_step));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/scene.hpp"
+#include "study/growth_watch.hpp"
 #include "study/p_wave_speed.hpp"
 #include "study/step_follower.hpp"
 
@@ -63,7 +64,8 @@ struct ProbeHistory {
   std::vector<Tensor<Dim>> stress;
 };
 
-/// The first number of a run that is none, or is beyond 1e100; of `ul` also a density that is not positive.
+/// The first number of a run that is none, or is beyond 1e40, in `ul` 1e100; of `ul` also a density that is not
+/// positive.
 struct NonFiniteValue {
   long step;
   double time;
@@ -72,15 +74,8 @@ struct NonFiniteValue {
   std::optional<std::string_view> term = {};  ///< of `ul`, that first made no number: a solver::UpdatedTerm
 };
 
-/// Why a run grows.
-enum class GrowthCause {
-  time_step,           ///< it is above the critical step of the state
-  tension,             ///< of `ul`: the particles are pulled apart
-  loss_of_ellipticity  ///< the law has no waves in some direction of some particle's strain
-};
-
 /// A run of finite strain that has more energy than its start and loads have given it, or a particle that has lost
-/// ellipticity: whatever the energy, waves grow there.
+/// ellipticity for long (study/growth_watch.hpp).
 struct RunGrowth {
   long step;
   double time;
@@ -116,6 +111,7 @@ struct SceneSummary {
   std::optional<long> list_builds = {};  ///< of `ul`: searches for neighbours
   /// Particles that have no neighbour within the support any more, at the end; none in `tl-linear`.
   std::vector<int> lost_particles = {};
+  bool is_elliptic = true;  ///< of finite strain, at the end (GrowthWatch::is_elliptic)
 };
 
 template <int Dim>
@@ -128,15 +124,11 @@ struct SceneRunResult {
   std::optional<RunGrowth> growth;        ///< of finite strain: then, too
 };
 
-/// A run has grown where its kinetic and strain energy are this many times what the start and the largest work of the
-/// loads have given: far more than the integrator's error and, in `tl-corotated`, the strain that is no potential.
-inline constexpr double energy_of_growth = 3.0;
-
 /// Runs the scene from its base state with the velocities that it starts with: those of half a step before with
 /// `leapfrog`. A run with non-finite values stops at the exact step of the first one, whatever the interval at which it
 /// is looked at. With `verlet` every sample, snapshot and 50th step costs an evaluation of the forces.
 /// Throws InvalidInput (`time_step`, `duration`) unless both are positive and the steps are at most 1e15, and
-/// (`velocity`) for velocities beyond 1e100. Tested in
+/// (`velocity`) for velocities beyond such numbers. Tested in
 /// tests/study/test_scene_run.cpp.
 template <int Dim>
 SceneRunResult<Dim> run_scene(const Scene<Dim>& scene, const SceneRunOptions<Dim>& options);
@@ -146,15 +138,3 @@ extern template SceneRunResult<2> run_scene(const Scene<2>&, const SceneRunOptio
 extern template SceneRunResult<3> run_scene(const Scene<3>&, const SceneRunOptions<3>&);
 
 }  // namespace sphstab::study
-
-namespace sphstab {
-
-template <>
-struct Names<study::GrowthCause> {
-  static constexpr std::array<Named<study::GrowthCause>, 3> table{
-      {{study::GrowthCause::time_step, "time step"},
-       {study::GrowthCause::tension, "tension"},
-       {study::GrowthCause::loss_of_ellipticity, "loss of ellipticity"}}};
-};
-
-}  // namespace sphstab

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "study/p_wave_speed.hpp"
 #include "study/thread_clock.hpp"
 
 namespace sphstab::study {
@@ -24,11 +26,32 @@ constexpr double small_change = 1e-3, large_change = 1e-2;
 /// Of limits that are told: Δt is right to half of it.
 constexpr double converged = 1e-6;
 
+template <int Dim>
+double slowest_wave(const Scene<Dim>& scene) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const auto& material : scene.body.materials) slowest = std::min(slowest, p_wave_speed(scene.problem, material));
+  return slowest;
+}
+
+template <int Dim>
+double largest(const std::vector<Vector<Dim>>& field) {
+  double norm = 0.0;
+  for (const auto& y : field) norm = std::max(norm, y.norm());
+  return norm;
+}
+
 }  // namespace
 
 template <int Dim>
-StepFollower<Dim>::StepFollower(const Problem<Dim>& problem, const Body<Dim>& body)
-    : operator_(problem, body), interval_(first_interval) {
+StepFollower<Dim>::StepFollower(const Scene<Dim>& scene)
+    : body_(scene.body),
+      free_motion_(scene.body, scene.periodic_cells.has_value()),
+      wave_speed_(slowest_wave(scene)),
+      wave_of_loads_(scene.body.load.empty() ? 0.0
+                                             : largest<Dim>(free_motion_.without(body_.position, body_.load)) *
+                                                   scene.problem.lattice.spacing() / wave_speed_),
+      operator_(scene.problem, scene.body),
+      interval_(first_interval) {
   const double start = thread_seconds();
   critical_step_ = limit_of_state({.dimension = small_space, .tolerance = residual_at_rest});
   work_.cpu_seconds += thread_seconds() - start;
@@ -63,6 +86,14 @@ void StepFollower<Dim>::update(const std::vector<Vector<Dim>>& displacement) {
   if (change < small_change) interval_ = std::min(2 * interval_, largest_interval);
   if (change > large_change) interval_ = std::max(interval_ / 2, least_interval);
   critical_step_ = limit;
+}
+
+template <int Dim>
+double StepFollower<Dim>::room_for_waves(const std::vector<Vector<Dim>>& displacement,
+                                         const std::vector<Vector<Dim>>& velocity) const {
+  std::vector<Vector<Dim>> position = body_.position;
+  for (int a = 0; a < body_.size(); ++a) position[a] += displacement[a];
+  return room_for(std::max(wave_of_loads_, largest<Dim>(free_motion_.without(position, velocity))));
 }
 
 template <int Dim>

@@ -127,6 +127,52 @@ TEST_CASE("a run of finite strain that grows ends with status 3 and its cause, i
   CHECK(std::filesystem::exists(output / "summary.json"));
 }
 
+TEST_CASE("a run above the critical step says so, and names it once it has grown, however short", "[fast]") {
+  const auto outcome = [](const std::string& fraction, const std::string& format) {
+    return run(deformed("run", "tl-pk1",
+                        {"--plate", "8,8", "--duration", "40", "--initial-noise", "1e-6", "--step-fraction", fraction,
+                         "--format", format}));
+  };
+  const Outcome above = outcome("1.001", "text");
+  CHECK(above.status == 3);
+  CHECK_THAT(above.out,
+             Contains("the time step is above the critical one") && Contains("cause                time step"));
+  CHECK(outcome("1.001", "json").json()["growth"]["cause"] == "time step");
+  const Outcome below = outcome("0.999", "text");
+  CHECK(below.status == 0);
+  CHECK_THAT(below.out, !Contains("WARNING"));
+}
+
+TEST_CASE("the energies of a run that explodes are numbers", "[fast]") {
+  const Json exploded = answer("run", "tl-pk1",
+                               {"--patch", "8,8", "--time-step", "auto", "--step-fraction", "1.5", "--duration", "100",
+                                "--initial-noise", "1e-6"});
+  CHECK(exploded["growth"]["cause"] == "time step");
+  for (const char* energy : {"kinetic_energy", "strain_energy"}) {
+    REQUIRE(exploded[energy].is_number());
+    CHECK(std::isfinite(number(exploded[energy])));
+  }
+}
+
+TEST_CASE("a base state beyond the loss of ellipticity has no critical step to take a part of, and is run with any",
+          "[fast]") {
+  const Arguments patch{"--patch", "8,8", "--deformation-gradient", "0.6,0,0,1", "--duration", "100"};
+  for (const Arguments& step : {Arguments{}, {"--time-step", "auto"}}) {
+    Arguments arguments = patch;
+    arguments.insert(arguments.end(), step.begin(), step.end());
+    CHECK(complaint_about(deformed("run", "tl-pk1", arguments)) ==
+          "time_step: there is no critical step to take a part of: the base state grows at every step (loss of "
+          "ellipticity)");
+  }
+  Arguments arguments = patch;
+  arguments.insert(arguments.end(), {"--time-step", "0.1"});
+  const Json run = answer("run", "tl-pk1", arguments);
+  CHECK(run["growth"]["cause"] == "loss of ellipticity");
+  CHECK(run["growth"]["step"] == 450);
+  CHECK(run["critical_time_step_at_end"].is_null());
+  CHECK(run["omega_squared_at_end"][0].is_number());
+}
+
 TEST_CASE("the spectrum of a deformed patch is that of the waves it admits, which bisection finds", "[fast]") {
   const Arguments patch{"--deformation-gradient", "1.2,0.1,0,0.95", "--patch", "6,5"};
   for (const std::string scheme : {"tl-corotated", "tl-pk1"}) {

@@ -72,3 +72,46 @@ TEMPLATE_TEST_CASE_SIG("a displacement that is rigid leaves nothing", "[fast]", 
   for (const auto& x : b.position) displacement.push_back(Vector<Dim>::Constant(0.7) + spin * x);
   CHECK(largest<Dim>(study::remove_rigid_motion<Dim>(b, displacement)) < rounding);
 }
+
+TEMPLATE_TEST_CASE_SIG("only what clamps leave free is taken for rigid motion", "[fast]", ((int Dim), Dim), 1, 2, 3) {
+  auto b = body<Dim>();
+  b.pairs = find_pairs<Dim>(b.position, 100.0);
+  const auto field = random_vectors<Dim>(2);
+  const auto left_by = [&](bool periodic) { return study::FreeMotion<Dim>(b, periodic).without(b.position, field); };
+  CHECK(left_by(false) == study::remove_rigid_motion<Dim>(b, field));
+
+  // Along x alone: the mean of mass goes, and nothing turns, as in a periodic box.
+  Vector<Dim> mean = Vector<Dim>::Zero();
+  double mass = 0.0;
+  for (int a = 0; a < particles; ++a) mean += b.mass(a) * field[a], mass += b.mass(a);
+  mean /= mass;
+  const auto in_box = left_by(true);
+  for (int a = 0; a < particles; ++a) CHECK((field[a] - mean - in_box[a]).norm() < rounding);
+  b.clamped.assign(particles, Directions<Dim>::Constant(false));
+  b.clamped[3] = Directions<Dim>::Constant(true);
+  b.clamped[3][0] = false;
+  if (Dim > 1)
+    for (int a = 0; a < particles; ++a)
+      CHECK((field[a] - mean[0] * Vector<Dim>::Unit(0) - left_by(false)[a]).norm() < rounding);
+  b.clamped[3][0] = true;
+  CHECK(left_by(false) == field);
+}
+
+TEMPLATE_TEST_CASE_SIG("each part moves by itself, and as a rigid one however far it has turned", "[fast]",
+                       ((int Dim), Dim), 2, 3) {
+  auto b = body<Dim>();
+  b.position.resize(6);
+  for (int a = 6; a < particles; ++a) b.position.push_back(b.position[a - 6] + Vector<Dim>::Constant(50.0));
+  b.pairs = find_pairs<Dim>(b.position, 10.0);
+  auto position = b.position;
+  std::vector<Vector<Dim>> velocity;
+  for (int a = 0; a < particles; ++a) {
+    position[a].template head<2>() = Vector<2>(-b.position[a][1], b.position[a][0]);  // a quarter of a turn
+    const double spin = a < 6 ? 0.3 : -0.7;
+    velocity.push_back(Vector<Dim>::Constant(spin));
+    velocity.back().template head<2>() += spin * Vector<2>(-position[a][1], position[a][0]);
+  }
+  // Distances of 50 about the origin.
+  CHECK(largest<Dim>(study::FreeMotion<Dim>(b, false).without(position, velocity)) < 100.0 * rounding);
+  CHECK(largest<Dim>(study::remove_rigid_motion<Dim>(b, velocity)) > 0.1);
+}
