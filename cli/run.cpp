@@ -17,7 +17,7 @@ std::string time_step_row(const Json& answer) {
   const double fraction = answer["time_step"].get<double>() / answer["critical_time_step"].get<double>();
   return row("time step", fmt::format("{}, {:.4g} of the critical step {}", number(answer, "time_step"), fraction,
                                       number(answer, "critical_time_step"))) +
-         (fraction > 1.0 ? row("WARNING", "the time step is above the critical one: whatever moves grows") : "");
+         (fraction > 1.0 ? row("WARNING", "the time step is above the critical one: the fastest modes grow") : "");
 }
 
 /// What a run that went wrong lost or gained.

@@ -26,10 +26,10 @@ inline constexpr double energy_of_growth = 3.0;
 inline constexpr int looks_of_loss = 10;
 
 /// What a run of finite strain is watched for beside its energy: loss of ellipticity, where the law has no waves in
-/// some direction of a particle's strain (analysis/ellipticity.hpp). What grows there at any step is waves, and no wave
-/// is shorter than the support: a particle counts where all its neighbours have lost ellipticity, too, and have for
-/// `looks_of_loss` looks. Large vibrations take particles beyond the loss and back, and a corner may be crushed for
-/// good while what is about it holds it. Tested in tests/study/test_finite_strain_run.cpp.
+/// some direction of a particle's strain (analysis/ellipticity.hpp), so that waves grow at any step. Whatever moves
+/// strains all that is within its support: a particle counts where all its neighbours have lost ellipticity, too, and
+/// have for `looks_of_loss` looks. Large vibrations take particles beyond the loss and back, and a corner may be
+/// crushed for good while what is about it holds it. Tested in tests/study/test_finite_strain_run.cpp.
 template <int Dim>
 class GrowthWatch {
  public:
