@@ -80,11 +80,20 @@ Beam truss(double force, double spacing) {
 SceneDescription<2> beam_scene(const Beam& beam, const Method& method) {
   const auto material = Material::from_young_modulus(beam_density, beam.young_modulus, beam.poisson_ratio);
   auto scene = scene_of("beam", problem_of(beam.spacing, material, method));
-  const double held = held_columns * beam.spacing;
-  add_box(scene, {{-held, 0.0}, {beam.length, beam.height}});
-  scene.clamps = {{Box<2>{{-held, 0.0}, {0.0, beam.height}}, Directions<2>::Constant(true)}};
-  scene.tractions = {{Box<2>{{beam.length - beam.spacing, 0.0}, {beam.length, beam.height}},
-                      TotalForce<2>{{beam.force_x, beam.force_y}}}};
+  const auto columns = [&](double from, double to) { return Box<2>{{from, 0.0}, {to, beam.height}}; };
+  const auto push = [&](const Box<2>& region, double x, double y) {
+    scene.tractions.push_back({region, TotalForce<2>{{x, y}}});
+  };
+  push(columns(beam.length - beam.spacing, beam.length), beam.force_x, beam.force_y);
+  if (beam.support == Support::clamp) {
+    const double held = held_columns * beam.spacing;
+    add_box(scene, columns(-held, beam.length));
+    scene.clamps = {{columns(-held, 0.0), Directions<2>::Constant(true)}};
+  } else {
+    add_box(scene, columns(-beam.length, beam.length));
+    push(columns(-beam.length, beam.spacing - beam.length), -beam.force_x, beam.force_y);
+    push(columns(-beam.spacing, beam.spacing), 0.0, -2.0 * beam.force_y);
+  }
   return scene;
 }
 

@@ -25,7 +25,13 @@ std::vector<Method> methods();
 
 inline constexpr double beam_length = 0.2, beam_density = 1000.0;
 
-/// A beam that is clamped at x = 0, of particles at the centres of cells, with a force on its free end.
+/// What holds a beam at x = 0.
+enum class Support {
+  clamp,    ///< a block of its own material beyond x = 0, held, as wide as the support of the kernel
+  symmetry  ///< nothing: beam and mirror image are one body, pushed in the middle by what pushes the two ends
+};
+
+/// A beam that is held at x = 0, of particles at the centres of cells, with a force on its free end.
 struct Beam {
   double height;
   double young_modulus;
@@ -34,6 +40,7 @@ struct Beam {
   double spacing;
   double poisson_ratio = 0.0;  ///< the paper gives none
   double length = beam_length;
+  Support support = Support::clamp;
 };
 
 /// H = 2 cm and E = 20 MPa (errata.md T7), a force downwards at the free end.
@@ -41,7 +48,6 @@ Beam cantilever(double force, double spacing);
 /// H = 5 cm and E = 2 MPa, a pull at the free end.
 Beam truss(double force, double spacing);
 
-/// What holds the beam: a block of its own material beyond x = 0, as wide as the support.
 SceneDescription<2> beam_scene(const Beam& beam, const Method& method);
 
 /// The bar of Turek & Hron: 0.35 × 0.02 and clamped in a cylinder of radius 0.05, its axis at (0.2, 0.2).
