@@ -21,6 +21,9 @@ class FreeMotion {
   /// Keeps a reference. In a periodic box nothing turns.
   FreeMotion(const Body<Dim>& body, bool periodic);
 
+  /// Whether any part can move.
+  bool exists() const { return !parts_.empty(); }
+
   /// The velocities, or forces per mass, of particles that are now at `position`, less those that move the parts as
   /// rigid ones and fit them best, with masses as weights. Exact for a part that turns, however far it has turned.
   /// Tested in tests/study/test_rigid_motion.cpp.

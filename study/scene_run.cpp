@@ -288,8 +288,8 @@ class Run {
   }
 
   std::vector<Vector<Dim>> displacements() const {
-    std::vector<Vector<Dim>> all;
-    for (int a = 0; a < motion_.particles(); ++a) all.push_back(motion_.displacement(a));
+    std::vector<Vector<Dim>> all(motion_.particles());
+    for (int a = 0; a < motion_.particles(); ++a) all[a] = motion_.displacement(a);
     return all;
   }
 

@@ -91,6 +91,7 @@ void StepFollower<Dim>::update(const std::vector<Vector<Dim>>& displacement) {
 template <int Dim>
 double StepFollower<Dim>::room_for_waves(const std::vector<Vector<Dim>>& displacement,
                                          const std::vector<Vector<Dim>>& velocity) const {
+  if (!free_motion_.exists()) return room_for(std::max(wave_of_loads_, largest<Dim>(velocity)));
   std::vector<Vector<Dim>> position = body_.position;
   for (int a = 0; a < body_.size(); ++a) position[a] += displacement[a];
   return room_for(std::max(wave_of_loads_, largest<Dim>(free_motion_.without(position, velocity))));

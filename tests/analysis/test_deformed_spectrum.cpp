@@ -188,6 +188,30 @@ TEST_CASE("weak growth of a large bent plate, lost among modes that hardly feel 
   CHECK(spectrum.growth_rate == Approx(fastest).epsilon(1e-6));
 }
 
+TEST_CASE("a pair that flutters in a large body is found inside its spectrum", "[ladder]") {
+  // Plates that do not touch have the spectrum of one of them, which is small enough to be looked at whole.
+  BentPlate one(corotated, {12, 8}, 0.05);
+  const auto expected = deformed_spectrum(one.op);
+  constexpr int plates = 6;
+  Body<2> body = one.body;
+  for (int plate = 1; plate < plates; ++plate)
+    for (int a = 0; a < one.body.size(); ++a) {
+      body.position.push_back(one.body.position[a] + Vector<2>(0.0, 100.0 * plate));
+      body.volume.push_back(one.body.volume[a]);
+      body.material.push_back(one.body.material[a]);
+    }
+  body.pairs = find_pairs(body.position, one.problem.kernel.support());
+  DeformedBodyOperator<2> op(one.problem, body);
+  op.set_state(one.displacement.replicate(plates, 1));
+  const auto spectrum = deformed_spectrum(op);
+  CHECK(spectrum.all.empty());
+  REQUIRE(spectrum.growing);
+  CHECK(spectrum.growing->omega_squared.imag() > 0.0);
+  CHECK(std::abs(spectrum.growing->omega_squared - expected.growing->omega_squared) <
+        of_ends * spectrum.largest.omega_squared.real());
+  CHECK(spectrum.growth_rate == Approx(expected.growth_rate).epsilon(1e-4));
+}
+
 TEST_CASE("a body at rest does not grow, and one of which nothing moves is refused", "[fast]") {
   BentPlate plate(corotated, {9, 7}, 0.0);
   const auto spectrum = deformed_spectrum(plate.op);

@@ -6,6 +6,7 @@
 
 #include "cli/program.hpp"
 #include "io/files.hpp"
+#include "io/hdf5.hpp"
 #include "io/scratch_folder.hpp"
 
 using namespace sphstab;
@@ -233,6 +234,11 @@ TEST_CASE("a state of a run has its spectrum: what the run says at its end, mode
   for (const char* file :
        {"critical_mode.h5", "critical_mode.svg", "lowest_modes.h5", "lowest_modes.svg", "summary.json"})
     CHECK(std::filesystem::exists(modes + "/" + file));
+  const io::Hdf5Input run_file(states), mode_file(modes + "/critical_mode.h5");
+  auto places = run_file.read("/reference/position");
+  const auto moved = run_file.read("/states/4/displacement");
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] += moved[i];
+  CHECK(mode_file.read("/reference/position") == places);
   const Json first = result_of(about({"--snapshot", "0", "--format", "json"})).json();
   CHECK(number(first["critical_time_step"]) ==
         Approx(number(run({"spectrum", "--scene", scene, "--format", "json"}).json()["critical_time_step"]))
