@@ -190,7 +190,7 @@ TEST_CASE("weak growth of a large bent plate, lost among modes that hardly feel 
 
 TEST_CASE("a pair that flutters in a large body is found inside its spectrum", "[ladder]") {
   // Plates that do not touch have the spectrum of one of them, which is small enough to be looked at whole.
-  BentPlate one(corotated, {12, 8}, 0.05);
+  BentPlate one(corotated, {12, 8}, 0.06);
   const auto expected = deformed_spectrum(one.op);
   constexpr int plates = 6;
   Body<2> body = one.body;
