@@ -129,7 +129,9 @@ class StateOfBody {
     add_ends(spectrum, answer);
     add_bulk_theory(scene_, spectrum.step_of_largest, answer);
     write("critical_mode", "Mode of the largest frequency", {spectrum.largest}, request);
-    if (spectrum.growing) write("growing_mode", "Mode that grows fastest", {*spectrum.growing}, request);
+    if (spectrum.growing)
+      write("growing_mode", fmt::format("Mode that grows fastest, {:.6g} per time", spectrum.growth_rate),
+            {*spectrum.growing}, request);
     if (count) {
       const auto end = spectrum.all.begin() + std::min<long>(static_cast<long>(*count), std::ssize(spectrum.all));
       const std::vector<analysis::DeformedMode> lowest(spectrum.all.begin(), end);
